@@ -1,0 +1,3 @@
+//! The `slopegen` program: parse, run, report, exit code.
+
+fn main() {}

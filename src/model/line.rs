@@ -1,0 +1,99 @@
+//! The given line: one or more 3D polylines and rings.
+
+use glam::DVec3;
+
+/// Where a vertex stands in its file, for messages. All numbers count from 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// Feature of a GeoJSON file (its position in the collection).
+    pub feature: Option<u32>,
+    /// Vertex within its line or ring, as given.
+    pub vertex: u32,
+    /// Row of a text file.
+    pub row: Option<u32>,
+}
+
+/// What a chain bounds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// An open polyline.
+    Open,
+    /// The outer ring of polygon `polygon` (counted from 0 over the whole input).
+    Outer {
+        /// Polygon index.
+        polygon: u32,
+    },
+    /// A hole in polygon `polygon`.
+    Hole {
+        /// Polygon index.
+        polygon: u32,
+    },
+}
+
+/// One polyline or ring, as given except that exact repetitions are merged.
+///
+/// Invariants (kept by validation): at least two vertices, three for rings; all finite; neighbours distinct in plan; a ring
+/// does not repeat its first vertex at the end.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chain {
+    /// Name for messages: the feature's id or name, else `line 1`, `line 2`, …
+    pub name: String,
+    /// What the chain bounds.
+    pub role: Role,
+    /// Vertices in world coordinates.
+    pub vertices: Vec<DVec3>,
+    /// Where each vertex stands in the file; same length as `vertices`.
+    pub places: Vec<Place>,
+}
+
+impl Chain {
+    /// Whether the chain is a ring.
+    pub fn closed(&self) -> bool {
+        self.role != Role::Open
+    }
+
+    /// Number of segments.
+    pub fn segment_count(&self) -> usize {
+        if self.closed() { self.vertices.len() } else { self.vertices.len() - 1 }
+    }
+
+    /// End points of segment `i`.
+    pub fn segment(&self, i: usize) -> (DVec3, DVec3) {
+        (self.vertices[i], self.vertices[(i + 1) % self.vertices.len()])
+    }
+
+    /// Stations of the vertices: plan distance along the chain from its first vertex; for rings one more entry, the whole
+    /// length. In the input's length unit.
+    pub fn stations(&self) -> Vec<f64> {
+        let mut station = 0.0;
+        let mut stations = vec![0.0];
+        for i in 0..self.segment_count() {
+            let (a, b) = self.segment(i);
+            station += a.truncate().distance(b.truncate());
+            stations.push(station);
+        }
+        stations
+    }
+}
+
+/// The given line `C`: all chains of one input. Together they carry one surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// The chains, in the order of the file.
+    pub chains: Vec<Chain>,
+}
+
+impl Line {
+    /// Number of vertices over all chains.
+    pub fn vertex_count(&self) -> usize {
+        self.chains.iter().map(|chain| chain.vertices.len()).sum()
+    }
+
+    /// Lowest and highest elevation of the line.
+    pub fn elevation_range(&self) -> (f64, f64) {
+        self.chains
+            .iter()
+            .flat_map(|c| &c.vertices)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v.z), hi.max(v.z)))
+    }
+}

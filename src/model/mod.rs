@@ -1,0 +1,11 @@
+//! What the program talks about: lines, slopes, designs, meshes. Plain data with checked constructors.
+
+pub mod design;
+pub mod line;
+pub mod slope;
+pub mod tin;
+
+pub use design::{Design, Extent, Sheet, Side};
+pub use line::{Chain, Line, Place, Role};
+pub use slope::Slope;
+pub use tin::{CurveKind, LineFeature, Part, Tin};
