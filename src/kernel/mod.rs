@@ -1,4 +1,6 @@
 //! Numbers only: local frame, sums, higher precision, orientation.
 
+pub mod dd;
 pub mod frame;
+pub mod orientation;
 pub mod sum;
