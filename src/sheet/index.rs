@@ -1,0 +1,324 @@
+//! A bounding volume hierarchy over segments, for the upper envelope of their sheets.
+//!
+//! Every node is a box turned to the run of its segments, with the greatest height in it. No sheet of a node reaches higher
+//! at `x` than `top − k·distance(x, box)`: that prunes. The boxes are turned because a line runs in all directions: an
+//! upright box about a diagonal stretch is as wide as it is long, and its bound is worth little.
+
+use glam::DVec2;
+
+use super::{Ruling, Segment};
+
+/// Segments per leaf: testing a segment costs about as much as testing a box.
+const LEAF: usize = 4;
+/// Room on the stack of a traversal. Halving 2³² segments takes 32 levels, and each level leaves one node behind.
+const STACK: usize = 64;
+/// Relative slack of bounds, in units of the scale of the numbers: several times the rounding of one height.
+const SLACK: f64 = 64.0 * f64::EPSILON;
+
+/// A box about segments.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+struct Node {
+    centre: DVec2,
+    /// Unit vector of its long side.
+    axis: DVec2,
+    /// Half its sides: along the axis and across.
+    half: DVec2,
+    /// Greatest height of the segments in it.
+    top: f64,
+    /// First segment of a leaf; left child of an inner node, the right child follows it.
+    first: u32,
+    /// Number of segments of a leaf; nought for an inner node.
+    count: u32,
+}
+
+impl Node {
+    /// No sheet of the node's segments is higher at `x`, up to rounding.
+    #[inline]
+    fn bound(&self, x: DVec2, k: f64) -> f64 {
+        let d = x - self.centre;
+        let p = (self.axis.dot(d).abs() - self.half.x).max(0.0);
+        let q = (self.axis.perp_dot(d).abs() - self.half.y).max(0.0);
+        self.top - k * (p * p + q * q).sqrt()
+    }
+}
+
+/// The index. Segments keep the numbers they came with; inside, they are stored leaf by leaf.
+#[derive(Clone, Debug)]
+pub struct Index {
+    k: f64,
+    nodes: Vec<Node>,
+    /// In the order of the leaves.
+    segments: Vec<Segment>,
+    /// Number of each stored segment.
+    ids: Vec<u32>,
+    /// Where each number is stored.
+    slots: Vec<u32>,
+    /// Middle of everything in plan, half the diagonal, and the greatest height in magnitude: the scale of rounding.
+    centre: DVec2,
+    reach: f64,
+    magnitude: f64,
+}
+
+impl Index {
+    /// Builds the index for a side slope of `k` rise per run, in O(n log n); the same segments give the same index.
+    ///
+    /// Precondition: at least one segment, fewer than 2³¹, all built with this `k`.
+    pub fn new(segments: &[Segment], k: f64) -> Self {
+        debug_assert!(!segments.is_empty(), "bug: an index of no segments");
+        let mut ids: Vec<u32> = (0..segments.len() as u32).collect();
+        let nodes = build(segments, &mut ids);
+        let mut slots = vec![0; ids.len()];
+        for (slot, &id) in ids.iter().enumerate() {
+            slots[id as usize] = slot as u32;
+        }
+        let magnitude = segments.iter().fold(0.0, |m: f64, s| m.max(s.za.abs()).max(s.zb.abs()));
+        let (centre, reach) = (nodes[0].centre, nodes[0].half.length());
+        Self { k, nodes, segments: ids.iter().map(|&id| segments[id as usize]).collect(), ids, slots, centre, reach, magnitude }
+    }
+
+    /// The side slope, rise per run.
+    #[inline]
+    pub fn k(&self) -> f64 {
+        self.k
+    }
+
+    /// Number of segments.
+    pub fn len(&self) -> usize {
+        self.segments.len()
+    }
+
+    /// Whether there are no segments.
+    pub fn is_empty(&self) -> bool {
+        self.segments.is_empty()
+    }
+
+    /// The segment with the number `id`.
+    #[inline]
+    pub fn segment(&self, id: u32) -> &Segment {
+        &self.segments[self.slots[id as usize] as usize]
+    }
+
+    /// How far rounding may carry a height at `x`, or two of them apart: about 1e-14 of the heights and distances involved.
+    #[inline]
+    pub fn rounding(&self, x: DVec2) -> f64 {
+        let away = (x - self.centre).abs();
+        SLACK * (self.magnitude + self.k * (self.reach + away.x + away.y + self.centre.x.abs() + self.centre.y.abs()))
+    }
+
+    /// Height of the sheet at `x` and the segment it belongs to: of several that are equally high, the one with the lowest
+    /// number. Exactly the greatest of [`Segment::height`] over all segments.
+    ///
+    /// `hint` is a segment that is likely to be high there, best the answer for a point nearby. It never changes the answer.
+    #[inline]
+    pub fn height(&self, x: DVec2, hint: Option<u32>) -> (f64, u32) {
+        let mut best = (f64::NEG_INFINITY, u32::MAX);
+        if let Some(id) = hint {
+            best = (self.segment(id).height(x, self.k), id);
+        }
+        let slack = self.rounding(x);
+        let mut stack = Stack::new();
+        let mut node = &self.nodes[0];
+        loop {
+            if node.count > 0 {
+                let range = node.first as usize..(node.first + node.count) as usize;
+                for (segment, &id) in self.segments[range.clone()].iter().zip(&self.ids[range]) {
+                    let height = segment.height(x, self.k);
+                    if height > best.0 || (height == best.0 && id < best.1) {
+                        best = (height, id);
+                    }
+                }
+            } else {
+                let (near, far) = self.children(node, x);
+                if far.1 >= best.0 - slack {
+                    stack.push(far);
+                }
+                if near.1 >= best.0 - slack {
+                    node = &self.nodes[near.0 as usize];
+                    continue;
+                }
+            }
+            loop {
+                match stack.pop() {
+                    None => return best,
+                    Some((next, bound)) if bound >= best.0 - slack => {
+                        node = &self.nodes[next as usize];
+                        break;
+                    }
+                    Some(_) => {}
+                }
+            }
+        }
+    }
+
+    /// Calls `visit` with every segment whose sheet reaches `floor` at `x`, in the same order each time. Segments that miss
+    /// it by no more than [`Self::rounding`] come too.
+    pub fn visit_above<F: FnMut(u32)>(&self, x: DVec2, floor: f64, mut visit: F) {
+        let floor = floor - self.rounding(x);
+        let mut stack = Stack::new();
+        stack.push((0, f64::INFINITY));
+        while let Some((at, _)) = stack.pop() {
+            let node = &self.nodes[at as usize];
+            if node.bound(x, self.k) < floor {
+                continue;
+            }
+            if node.count == 0 {
+                stack.push((node.first, 0.0));
+                stack.push((node.first + 1, 0.0));
+                continue;
+            }
+            for slot in node.first as usize..(node.first + node.count) as usize {
+                if self.segments[slot].height(x, self.k) >= floor {
+                    visit(self.ids[slot]);
+                }
+            }
+        }
+    }
+
+    /// Shortens a ruling to where it is visible: returns its length `r ≤ limit`.
+    ///
+    /// `crossing` is called with a segment and the present length and returns the new one: where the ruling meets that
+    /// segment's sheet, or the present length if it does not before. It is called for every segment whose sheet is not
+    /// lower than the ruling's present end (to within [`Self::rounding`]), the ruling's own segment included; the others
+    /// cannot shorten it: once another sheet is higher along a ruling it stays higher.
+    ///
+    /// Precondition: `limit` is finite.
+    pub fn trim(&self, ruling: &Ruling, limit: f64, crossing: &mut impl FnMut(u32, f64) -> f64) -> f64 {
+        let mut r = limit;
+        let mut end = ruling.at(r);
+        let slack = self.rounding(end).max(self.rounding(ruling.foot));
+        let mut floor = ruling.z - self.k * r - slack;
+        let mut stack = Stack::new();
+        let mut node = &self.nodes[0];
+        loop {
+            if node.count > 0 {
+                for slot in node.first as usize..(node.first + node.count) as usize {
+                    if self.segments[slot].height(end, self.k) >= floor {
+                        let shorter = crossing(self.ids[slot], r);
+                        if shorter < r {
+                            r = shorter;
+                            end = ruling.at(r);
+                            floor = ruling.z - self.k * r - slack;
+                        }
+                    }
+                }
+            } else {
+                let (near, far) = self.children(node, end);
+                if far.1 >= floor {
+                    // Kept with the length its bound was taken at.
+                    stack.push((far.0, r));
+                }
+                if near.1 >= floor {
+                    node = &self.nodes[near.0 as usize];
+                    continue;
+                }
+            }
+            loop {
+                let Some((next, taken_at)) = stack.pop() else { return r };
+                node = &self.nodes[next as usize];
+                if taken_at == r || node.bound(end, self.k) >= floor {
+                    break;
+                }
+            }
+        }
+    }
+
+    /// The children of an inner node with their bounds at `x`, the higher bound first.
+    #[inline]
+    fn children(&self, node: &Node, x: DVec2) -> ((u32, f64), (u32, f64)) {
+        let at = node.first as usize;
+        let left = (node.first, self.nodes[at].bound(x, self.k));
+        let right = (node.first + 1, self.nodes[at + 1].bound(x, self.k));
+        if left.1 >= right.1 { (left, right) } else { (right, left) }
+    }
+}
+
+/// Nodes left for later, each with a number.
+struct Stack {
+    entries: [(u32, f64); STACK],
+    len: usize,
+}
+
+impl Stack {
+    #[inline]
+    fn new() -> Self {
+        Self { entries: [(0, 0.0); STACK], len: 0 }
+    }
+
+    #[inline]
+    fn push(&mut self, entry: (u32, f64)) {
+        self.entries[self.len] = entry;
+        self.len += 1;
+    }
+
+    #[inline]
+    fn pop(&mut self) -> Option<(u32, f64)> {
+        self.len = self.len.checked_sub(1)?;
+        Some(self.entries[self.len])
+    }
+}
+
+/// Builds the nodes from the top and puts `ids` into the order of the leaves.
+fn build(segments: &[Segment], ids: &mut [u32]) -> Vec<Node> {
+    let middle = |id: u32| {
+        let segment = &segments[id as usize];
+        0.5 * (segment.a + segment.b)
+    };
+    let mut nodes = vec![boxed(segments, ids)];
+    let mut open = vec![(0, 0, ids.len())];
+    while let Some((at, from, to)) = open.pop() {
+        if to - from <= LEAF {
+            nodes[at].first = from as u32;
+            nodes[at].count = (to - from) as u32;
+            continue;
+        }
+        let part = &mut ids[from..to];
+        let (mut lo, mut hi) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        for &id in part.iter() {
+            lo = lo.min(middle(id));
+            hi = hi.max(middle(id));
+        }
+        let key = |id: u32| if hi.x - lo.x >= hi.y - lo.y { middle(id).x } else { middle(id).y };
+        let half = part.len() / 2;
+        // The number settles ties: the order of the leaves depends on the segments alone.
+        part.select_nth_unstable_by(half, |&i, &j| key(i).total_cmp(&key(j)).then(i.cmp(&j)));
+        let children = nodes.len();
+        nodes[at].first = children as u32;
+        nodes.push(boxed(segments, &ids[from..from + half]));
+        nodes.push(boxed(segments, &ids[from + half..to]));
+        open.push((children + 1, from + half, to));
+        open.push((children, from, from + half));
+    }
+    nodes
+}
+
+/// The box about some segments, turned to the principal axis of their ends.
+fn boxed(segments: &[Segment], ids: &[u32]) -> Node {
+    let ends = || ids.iter().flat_map(|&id| [segments[id as usize].a, segments[id as usize].b]);
+    let mean = ends().sum::<DVec2>() / (2 * ids.len()) as f64;
+    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+    for d in ends().map(|p| p - mean) {
+        xx += d.x * d.x;
+        xy += d.x * d.y;
+        yy += d.y * d.y;
+    }
+    let axis = principal_axis(0.5 * (xx - yy), xy);
+    let (mut lo, mut hi) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for d in ends().map(|p| p - mean) {
+        let local = DVec2::new(axis.dot(d), axis.perp_dot(d));
+        lo = lo.min(local);
+        hi = hi.max(local);
+    }
+    let middle = 0.5 * (lo + hi);
+    let top = ids.iter().fold(f64::NEG_INFINITY, |m, &id| m.max(segments[id as usize].za).max(segments[id as usize].zb));
+    Node { centre: mean + middle.x * axis + middle.y * axis.perp(), axis, half: 0.5 * (hi - lo), top, first: 0, count: 0 }
+}
+
+/// Unit eigenvector of the larger eigenvalue of the symmetric matrix with half difference of diagonal `c` and
+/// off-diagonal `s`; the first axis when all directions are alike.
+fn principal_axis(c: f64, s: f64) -> DVec2 {
+    let size = (c * c + s * s).sqrt();
+    // Of the two columns that span the eigenspace, the one that does not cancel.
+    let axis = if c >= 0.0 { DVec2::new(c + size, s) } else { DVec2::new(s, size - c) };
+    axis.try_normalize().unwrap_or(DVec2::X)
+}

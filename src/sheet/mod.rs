@@ -1,0 +1,12 @@
+//! The sheet as a function of place: closed form of one segment, an index over many, heights at points and on grids.
+//!
+//! Everything here speaks of the falling sheet, the upper envelope of the segments' cones; for the rising one the line is
+//! mirrored in z by the caller ([`Heights`] does it itself).
+
+pub mod index;
+pub mod segment;
+#[cfg(test)]
+mod testing;
+
+pub use index::Index;
+pub use segment::{Ruling, Segment};
