@@ -2,7 +2,6 @@
 
 use slopegen::write::{Delivery, EncodeError, Outputs, Target, WriteError, discard_unfinished};
 use std::fs;
-use std::io::Write;
 use std::path::Path;
 use std::sync::Mutex;
 

@@ -114,7 +114,8 @@ impl Outputs {
     /// The first of: [`WriteError::IsFolder`], [`WriteError::SameFile`], [`WriteError::IsInput`], [`WriteError::Open`].
     /// Outputs opened until then are gone again.
     pub fn open<P: AsRef<Path>>(targets: &[Target], inputs: &[P]) -> Result<Self, WriteError> {
-        let inputs: Vec<Identity> = inputs.iter().filter_map(|p| Identity::of(p.as_ref()).ok()).collect();
+        let inputs: Vec<Identity> =
+            inputs.iter().map(AsRef::as_ref).filter(|p| p.is_file()).filter_map(|p| Identity::of(p).ok()).collect();
         let mut taken: Vec<(Identity, &Target)> = Vec::new();
         for target in targets {
             let identity = match target {
