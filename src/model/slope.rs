@@ -41,12 +41,28 @@ impl Slope {
         let n = rounded(self.one_in(), 4);
         format!("1V:{n}H · {n}H:1V · {} % · {}°", rounded(self.percent(), 3), rounded(self.degrees(), 4))
     }
+
+    /// As `1V:1.25H` with four digits, rounded so that what is shown is never flatter: for "this steep or steeper".
+    pub fn not_flatter(self) -> String {
+        /// What one division leaves of a number typed with few digits, relative.
+        const ROUNDING: f64 = 4.0 * f64::EPSILON;
+        let unit = 10_f64.powi(4_i32.saturating_sub(digits_before_point(self.one_in())).clamp(0, MOST_DECIMALS));
+        format!("1V:{}H", rounded((self.one_in() * (1.0 + ROUNDING) * unit).floor() / unit, 4))
+    }
+}
+
+/// More decimals than any slope needs.
+const MOST_DECIMALS: i32 = 17;
+
+/// Digits of a number before the decimal point, from its decimal exponent.
+fn digits_before_point(value: f64) -> i32 {
+    (value.log10().floor() as i32).saturating_add(1)
 }
 
 /// A positive number rounded to `digits` significant ones, digits before the point always kept, no zeros at the end.
 pub(super) fn rounded(value: f64, digits: i32) -> String {
-    let before_point = value.log10().floor() as i32 + 1;
-    let text = format!("{value:.*}", (digits - before_point).max(0) as usize);
+    let decimals = digits.saturating_sub(digits_before_point(value)).clamp(0, MOST_DECIMALS);
+    let text = format!("{value:.*}", decimals as usize);
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
@@ -67,6 +83,27 @@ mod tests {
             (1e4, "1V:0.0001H · 0.0001H:1V · 1000000 % · 89.99°"),
         ] {
             assert_eq!(Slope::from_ratio(ratio).unwrap().forms(), expected);
+        }
+    }
+
+    #[test]
+    fn never_shown_flatter() {
+        for (ratio, expected) in [
+            (0.8, "1V:1.25H"),
+            (1.0 / 1.1, "1V:1.1H"),
+            (1.0 / 1.23456, "1V:1.234H"),
+            (1.0 / 0.99999, "1V:0.9999H"),
+            (1e-4, "1V:10000H"),
+        ] {
+            assert_eq!(Slope::from_ratio(ratio).unwrap().not_flatter(), expected);
+        }
+    }
+
+    #[test]
+    fn any_slope_can_be_shown() {
+        for ratio in [5e-324, 1e-300, 1e300, f64::MAX] {
+            let slope = Slope::from_ratio(ratio).unwrap();
+            assert!(!slope.forms().is_empty() && !slope.not_flatter().is_empty());
         }
     }
 

@@ -3,6 +3,7 @@
 pub mod json;
 pub mod model;
 pub mod text;
+pub mod volumes;
 
 #[cfg(test)]
 mod testing;
@@ -10,6 +11,7 @@ mod testing;
 pub use json::write_json;
 pub use model::*;
 pub use text::write_text;
+pub use volumes::{Balance, Depths, Reference, Volumes};
 
 use crate::write::{EncodeError, Target, UnknownFormat, ending};
 use std::io::Write;

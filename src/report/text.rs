@@ -67,7 +67,8 @@ pub fn render(report: &Report) -> String {
     if !report.warnings.is_empty() {
         page.section("Warnings");
         for warning in &report.warnings {
-            let _ = writeln!(page.text, "  {}: {}", warning.code, warning.message);
+            let message: Vec<String> = warning.message.lines().map(printable).collect();
+            let _ = writeln!(page.text, "  {}: {}", warning.code, message.join("\n    "));
         }
     }
     page.text
@@ -89,21 +90,20 @@ fn line(page: &mut Page<'_>, line: &LineFigures) {
         return;
     }
     page.section("Buried stretches (stations; the line lies outside the surface there)");
-    let names = line.buried.iter().flat_map(|b| [b.chain.chars().count(), b.by_chain.chars().count()]);
-    let width = names.max().unwrap_or(0).max("chain".len());
+    let names: Vec<[String; 2]> = line.buried.iter().map(|b| [printable(&b.chain), printable(&b.by_chain)]).collect();
+    let width = names.iter().flatten().map(|name| name.chars().count()).max().unwrap_or(0).max("chain".len());
     let text = &mut page.text;
     let _ = writeln!(
         text,
         "  {:width$}  {:>12}  {:>12}  {:>10}  {:width$}  {:>12}  free from",
         "chain", "from", "to", "depth", "under", "station"
     );
-    for b in &line.buried {
-        let free =
-            b.free_slope.and_then(Slope::from_ratio).map_or_else(|| "no slope".to_owned(), |s| first_form(&s.forms()).to_owned());
+    for (b, [chain, by_chain]) in line.buried.iter().zip(&names) {
+        let free = b.free_slope.and_then(Slope::from_ratio).map_or_else(|| "no slope".to_owned(), Slope::not_flatter);
         let _ = writeln!(
             text,
             "  {:width$}  {:>12.3}  {:>12.3}  {:>10.3}  {:width$}  {:>12.3}  {free}",
-            b.chain, b.from, b.to, b.depth, b.by_chain, b.by_station
+            chain, b.from, b.to, b.depth, by_chain, b.by_station
         );
     }
 }
@@ -146,16 +146,17 @@ fn volumes(page: &mut Page<'_>, v: &Volumes) {
     page.words("complete", if v.complete { "yes" } else { "NO, the slopes do not reach their end everywhere" });
 }
 
+/// Text from a file, without characters that would move the cursor or colour a terminal.
+fn printable(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+}
+
 /// The four forms of a slope.
 fn forms(slope: SlopeFigures) -> String {
     Slope::from_ratio(slope.ratio).map_or_else(|| slope.ratio.to_string(), Slope::forms)
 }
 
-fn first_form(forms: &str) -> &str {
-    forms.split(" · ").next().unwrap_or(forms)
-}
-
-/// A small figure in two significant digits: the order of magnitude is what matters.
+/// A small figure: four decimals, or its order of magnitude.
 fn short(value: f64) -> String {
     /// Smaller ones are written with an exponent.
     const PLAIN: f64 = 1e-4;
@@ -181,7 +182,7 @@ impl Page<'_> {
     }
 
     fn words(&mut self, name: &str, words: &str) {
-        let _ = writeln!(self.text, "  {name:NAME$}{words}");
+        let _ = writeln!(self.text, "  {name:NAME$}{}", printable(words));
     }
 
     fn figure(&mut self, name: &str, number: &str, unit: &str) {
@@ -232,6 +233,18 @@ mod tests {
         let text = render(&report);
         assert!(text.contains("Lengths in ft, areas in ft², volumes in ft³\n"));
         assert!(text.contains(" ft³ deficit\n") && !text.contains(" m\n") && !text.contains(" m²") && !text.contains(" m³"));
+    }
+
+    #[test]
+    fn names_from_files_cannot_break_the_page() {
+        let mut report = full();
+        report.line.buried[0].chain = "a\nb\u{1b}[2J".into();
+        report.inputs[0].crs = Some("x\ty".into());
+        report.warnings[0].message = "first\nsecond\u{7}".into();
+        let text = render(&report);
+        assert!(text.contains("\n  a b [2J "), "{text}");
+        assert!(text.contains("buried: first\n    second \n"), "{text}");
+        assert!(text.chars().all(|c| c == '\n' || !c.is_control()));
     }
 
     #[test]
