@@ -1,8 +1,10 @@
 //! Surfaces of constant slope through a 3D line, for earthworks.
 //!
 //! Data flows one way: **read → validate → sheet → slope → mesh → write / report**. Each module uses only those that stand
-//! above it in this list; [`pipeline`] alone knows the order. See `docs/architecture.md`.
+//! above it in this list; `pipeline` alone knows the order. See `docs/architecture.md`.
 
 pub mod kernel;
 pub mod model;
+pub mod report;
 pub mod sheet;
+pub mod write;

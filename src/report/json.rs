@@ -1,0 +1,81 @@
+//! The report for machines.
+
+use super::Report;
+use crate::write::EncodeError;
+use serde_json::Value;
+use std::io::Write;
+
+/// Writes a report as indented JSON, schema `slopegen-report/1`, with a line break at the end.
+///
+/// # Errors
+/// [`EncodeError::ReportNotFinite`] names the first figure that is NaN or infinite, and nothing is written;
+/// [`EncodeError::Report`] from the sink.
+pub fn write_json(out: &mut (impl Write + ?Sized), report: &Report) -> Result<(), EncodeError> {
+    // JSON has no NaN: serde_json turns it into null. No key of a report is ever null on purpose.
+    if let Some(path) = first_null(&serde_json::to_value(report)?, "") {
+        return Err(EncodeError::ReportNotFinite(path));
+    }
+    serde_json::to_writer_pretty(&mut *out, report)?;
+    writeln!(out)?;
+    Ok(())
+}
+
+/// Dotted path of the first null, such as `line.buried[2].depth`; `path` leads to `value`.
+fn first_null(value: &Value, path: &str) -> Option<String> {
+    match value {
+        Value::Null => Some(path.to_owned()),
+        Value::Array(items) => items.iter().enumerate().find_map(|(i, item)| first_null(item, &format!("{path}[{i}]"))),
+        Value::Object(items) => items.iter().find_map(|(key, item)| {
+            let dot = if path.is_empty() { "" } else { "." };
+            first_null(item, &format!("{path}{dot}{key}"))
+        }),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::Detail;
+    use crate::report::testing::{full, least};
+
+    fn json(report: &Report) -> String {
+        let mut bytes = Vec::new();
+        write_json(&mut bytes, report).unwrap();
+        String::from_utf8(bytes).unwrap()
+    }
+
+    #[test]
+    fn a_full_report_is_pinned() {
+        crate::report::testing::compare(&json(&full()), include_str!("../../tests/golden/report.json"), "report.json");
+    }
+
+    #[test]
+    fn keys_that_do_not_apply_are_left_out() {
+        let text = json(&least());
+        for key in ["crs", "cut\":", "volumes", "depths", "null"] {
+            assert!(!text.contains(key), "{key} in {text}");
+        }
+        assert!(text.ends_with("}\n"));
+    }
+
+    #[test]
+    fn a_figure_that_is_none_is_named() {
+        let refuse = |change: fn(&mut Report)| {
+            let mut report = full();
+            change(&mut report);
+            let mut bytes = Vec::new();
+            let error = write_json(&mut bytes, &report).unwrap_err();
+            assert!(bytes.is_empty());
+            error.to_string()
+        };
+        let expected = |path: &str| format!("report figure `{path}` is not a finite number; this is a bug in the program");
+        assert_eq!(refuse(|r| r.certificate.height_max_deviation = f64::NAN), expected("certificate.height_max_deviation"));
+        assert_eq!(refuse(|r| r.line.buried[1].depth = f64::INFINITY), expected("line.buried[1].depth"));
+        assert_eq!(refuse(|r| r.levels[2] = f64::NAN), expected("levels[2]"));
+        assert_eq!(
+            refuse(|r| drop(r.warnings[0].details.insert("depth", Detail::Number(f64::NAN)))),
+            expected("warnings[0].depth")
+        );
+    }
+}

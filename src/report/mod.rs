@@ -1,0 +1,85 @@
+//! What a run has to tell: as data ([`Report`]), as JSON for machines, as text for people.
+
+pub mod json;
+pub mod model;
+pub mod text;
+pub mod volumes;
+
+#[cfg(test)]
+mod testing;
+
+pub use json::write_json;
+pub use model::*;
+pub use text::write_text;
+pub use volumes::{Balance, Depths, Reference, Volumes};
+
+use crate::write::{EncodeError, Target, UnknownFormat, ending};
+use std::io::Write;
+
+/// The formats a report can be written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ReportFormat {
+    /// Schema `slopegen-report/1`.
+    Json,
+    /// For people.
+    Text,
+}
+
+impl ReportFormat {
+    /// The format of a target: by the ending of its name, upper or lower case. Standard output and existing devices and pipes
+    /// whose names end in neither take text.
+    ///
+    /// # Errors
+    /// [`UnknownFormat`] for any other ending, or none.
+    pub fn of(target: &Target) -> Result<Self, UnknownFormat> {
+        let Target::File(path) = target else { return Ok(Self::Text) };
+        match ending(path).as_deref() {
+            Some("json") => Ok(Self::Json),
+            Some("txt") => Ok(Self::Text),
+            _ if target.is_stream() => Ok(Self::Text),
+            _ => Err(UnknownFormat { what: "report", path: path.clone(), known: "`.json` or `.txt`" }),
+        }
+    }
+
+    /// Writes a report in this format.
+    ///
+    /// # Errors
+    /// As [`write_json`] and [`write_text`].
+    pub fn write(self, out: &mut (impl Write + ?Sized), report: &Report) -> Result<(), EncodeError> {
+        match self {
+            Self::Json => write_json(out, report),
+            Self::Text => write_text(out, report),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ending_names_the_format() {
+        let of = |name: &str| ReportFormat::of(&Target::File(name.into()));
+        assert_eq!(of("r.JSON"), Ok(ReportFormat::Json));
+        assert_eq!(of("r.txt"), Ok(ReportFormat::Text));
+        assert_eq!(ReportFormat::of(&Target::Stdout), Ok(ReportFormat::Text));
+        assert_eq!(
+            of("r.pdf").unwrap_err().to_string(),
+            "no format is known for the ending `.pdf`\n  --> r.pdf\n   = help: end the name of a report in `.json` or `.txt`"
+        );
+    }
+
+    #[test]
+    fn the_word_for_net() {
+        for (cut, fill, expected) in [
+            (2.0, 1.0, Balance::Surplus),
+            (1.0, 2.0, Balance::Deficit),
+            (0.0, 0.0, Balance::Balanced),
+            (1e6, 1e6 + 1e-4, Balance::Balanced),
+            (1e6, 1e6 + 1e-2, Balance::Deficit),
+            (1e-12, 0.0, Balance::Surplus),
+        ] {
+            assert_eq!(Balance::of(cut, fill), expected, "{cut} {fill}");
+        }
+    }
+}

@@ -1,0 +1,280 @@
+//! The report as data: schema `slopegen-report/1`.
+//!
+//! Plain structures that the pipeline fills; keys, their order and their meaning are described in `docs/report.md`. Lengths are
+//! in the unit of the input, areas and volumes in its square and cube. A key that does not apply is left out, never `null`.
+
+use super::volumes::{Depths, Volumes};
+use crate::model::{Extent, Slope};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Name of the schema, first key of every report.
+pub const SCHEMA: &str = "slopegen-report/1";
+
+/// Everything a run has to tell.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// [`SCHEMA`].
+    pub schema: &'static str,
+    /// The program.
+    pub tool: Tool,
+    /// The files read.
+    pub inputs: Vec<Input>,
+    /// Units of the figures.
+    pub units: Units,
+    /// The side slopes.
+    pub slopes: Slopes,
+    /// The given line.
+    pub line: LineFigures,
+    /// Where the slope ends.
+    pub extent: ExtentFigures,
+    /// Elevations of the level curves, ascending.
+    pub levels: Vec<f64>,
+    /// The mesh written.
+    pub surface: SurfaceFigures,
+    /// What was measured on the mesh written.
+    pub certificate: Certificate,
+    /// Cut and fill.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub volumes: Option<Volumes>,
+    /// Greatest depths of cut and fill.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub depths: Option<Depths>,
+    /// What the reader should know.
+    pub warnings: Vec<Warning>,
+    /// Seconds spent. The one part that differs from run to run.
+    pub timing: Timing,
+}
+
+/// The program that made the report.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Tool {
+    /// Its name.
+    pub name: &'static str,
+    /// Its version.
+    pub version: &'static str,
+}
+
+impl Default for Tool {
+    /// This program.
+    fn default() -> Self {
+        Self { name: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION") }
+    }
+}
+
+/// A file read.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Input {
+    /// What it was read for, such as `line`.
+    pub role: String,
+    /// Its path as given; `-` for standard input.
+    pub path: String,
+    /// SHA-256 of its bytes, 64 lower-case hexadecimal digits.
+    pub sha256: String,
+    /// `geojson` or `csv`.
+    pub format: String,
+    /// Name of its coordinate system, where it gives one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crs: Option<String>,
+}
+
+/// Units of the figures.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Units {
+    /// Label of the length unit.
+    pub length: String,
+}
+
+impl Default for Units {
+    /// Metres.
+    fn default() -> Self {
+        Self { length: "m".to_owned() }
+    }
+}
+
+/// The side slopes, each where it occurs.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Slopes {
+    /// Of the rising sheet.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cut: Option<SlopeFigures>,
+    /// Of the falling sheet.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fill: Option<SlopeFigures>,
+}
+
+/// One slope in its four forms.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SlopeFigures {
+    /// Rise per run.
+    pub ratio: f64,
+    /// Run per unit of rise.
+    pub one_in: f64,
+    /// In percent.
+    pub percent: f64,
+    /// Angle against the horizontal.
+    pub degrees: f64,
+}
+
+impl From<Slope> for SlopeFigures {
+    fn from(slope: Slope) -> Self {
+        Self { ratio: slope.ratio(), one_in: slope.one_in(), percent: slope.percent(), degrees: slope.degrees() }
+    }
+}
+
+/// The given line.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct LineFigures {
+    /// Polylines and rings.
+    pub chains: usize,
+    /// Vertices as given, repetitions merged.
+    pub vertices: usize,
+    /// Vertices the engine left out of its own copy of the line; the mesh has them all.
+    pub simplified: usize,
+    /// Greatest distance of a vertex left out from that copy.
+    pub simplified_max: f64,
+    /// Plan length of all chains.
+    pub length: f64,
+    /// Lowest elevation.
+    pub z_min: f64,
+    /// Highest elevation.
+    pub z_max: f64,
+    /// Greatest gradient along the line, rise per run, absolute.
+    pub gradient_max: f64,
+    /// Stretches that lie under the sheet of another part of the line.
+    pub buried: Vec<BuriedStretch>,
+}
+
+/// A stretch of the line that does not appear in the surface because another part's sheet lies over it (or under it, for the
+/// rising sheet).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BuriedStretch {
+    /// Name of its chain.
+    pub chain: String,
+    /// Station where it begins.
+    pub from: f64,
+    /// Station where it ends.
+    pub to: f64,
+    /// Greatest height of the sheet over it (under it, for the rising sheet); positive.
+    pub depth: f64,
+    /// Name of the chain that buries it.
+    pub by_chain: String,
+    /// Station on that chain whose ruling passes over the deepest point.
+    pub by_station: f64,
+    /// Flattest slope, rise per run, that would leave it free; none where two parts meet in plan at different heights.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub free_slope: Option<f64>,
+}
+
+/// Where the slope ends.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ExtentFigures {
+    /// What the value is.
+    pub kind: ExtentKind,
+    /// The value, in the length unit.
+    pub value: f64,
+}
+
+/// What the value of an extent is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ExtentKind {
+    /// An absolute elevation.
+    Elevation,
+    /// A height difference from the line.
+    Height,
+    /// A plan distance from the line.
+    Distance,
+}
+
+impl From<Extent> for ExtentFigures {
+    fn from(extent: Extent) -> Self {
+        let (kind, value) = match extent {
+            Extent::Elevation(value) => (ExtentKind::Elevation, value),
+            Extent::Height(value) => (ExtentKind::Height, value),
+            Extent::Distance(value) => (ExtentKind::Distance, value),
+        };
+        Self { kind, value }
+    }
+}
+
+/// The mesh written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct SurfaceFigures {
+    /// Vertices.
+    pub vertices: usize,
+    /// Triangles.
+    pub triangles: usize,
+    /// Area of its projection onto the horizontal.
+    pub plan_area: f64,
+    /// Area of the slopes, measured in them.
+    pub slope_area: f64,
+    /// The falling part of `slope_area`.
+    pub fill_slope_area: f64,
+    /// The rising part of `slope_area`.
+    pub cut_slope_area: f64,
+    /// Area of the platform, measured in it.
+    pub platform_area: f64,
+}
+
+/// What was measured on the mesh written.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Certificate {
+    /// Every ridge arc of a facet with a partner is an arc of the partner with that facet.
+    pub paired: bool,
+    /// Greatest deviation of a slope triangle from the slope asked for, in degrees.
+    pub slope_max_deviation_deg: f64,
+    /// The same over planar strips.
+    pub strip_max_deviation_deg: f64,
+    /// The same over cone sectors.
+    pub sector_max_deviation_deg: f64,
+    /// Slope triangles that deviate by more than 0.1°.
+    pub triangles_beyond_0_1deg: usize,
+    /// Greatest deviation of a sampled height from the closed form.
+    pub height_max_deviation: f64,
+    /// No edge has more than two triangles, no vertex pinches, all triangles face up.
+    pub manifold: bool,
+    /// Pairs of triangles that overlap in plan.
+    pub overlaps: usize,
+    /// Every segment of the given line is a chain of mesh edges.
+    pub input_edges_kept: bool,
+}
+
+/// Something the reader should know.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Warning {
+    /// Stable name, listed in `docs/cli.md`.
+    pub code: String,
+    /// One sentence.
+    pub message: String,
+    /// Figures beside the message, under keys of their own. `code` and `message` are taken.
+    #[serde(flatten)]
+    pub details: BTreeMap<&'static str, Detail>,
+}
+
+/// A figure of a warning.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Detail {
+    /// A whole number.
+    Count(u64),
+    /// Any other number.
+    Number(f64),
+    /// A name.
+    Text(String),
+}
+
+/// Seconds spent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Timing {
+    /// Reading and validation.
+    pub read: f64,
+    /// The surface and its certificate.
+    pub surface: f64,
+    /// Areas and volumes.
+    pub volume: f64,
+    /// Meshes and line work, up to the report.
+    pub write: f64,
+    /// All of it.
+    pub total: f64,
+}

@@ -1,0 +1,256 @@
+//! The report for people.
+
+use super::{Certificate, ExtentKind, LineFigures, Report, SlopeFigures, SurfaceFigures, Volumes};
+use crate::model::Slope;
+use crate::write::EncodeError;
+use std::fmt::Write as _;
+use std::io::Write;
+
+/// Width of the names before the figures.
+const NAME: usize = 20;
+/// Width of a number before its unit.
+const NUMBER: usize = 16;
+/// Hexadecimal digits of a SHA-256 that tell files apart by eye.
+const SHORT_SHA: usize = 12;
+
+/// Writes a report as plain text, UTF-8. The same report gives the same bytes; times are not in it.
+///
+/// # Errors
+/// [`EncodeError::Io`] from the sink.
+pub fn write_text(out: &mut (impl Write + ?Sized), report: &Report) -> Result<(), EncodeError> {
+    out.write_all(render(report).as_bytes())?;
+    Ok(())
+}
+
+/// The report as plain text.
+pub fn render(report: &Report) -> String {
+    let unit = report.units.length.as_str();
+    let mut page = Page { text: String::new(), unit };
+    page.text = format!(
+        "{} {}: surface of constant slope\nLengths in {unit}, areas in {unit}², volumes in {unit}³\n",
+        report.tool.name, report.tool.version
+    );
+    page.section("Input");
+    for input in &report.inputs {
+        let short = input.sha256.get(..SHORT_SHA).unwrap_or(&input.sha256);
+        page.words(&input.role, &format!("{} ({}, sha256 {short})", input.path, input.format));
+        if let Some(crs) = &input.crs {
+            page.words("coordinate system", crs);
+        }
+    }
+    line(&mut page, &report.line);
+    page.section("Slope");
+    for (name, slope) in [("cut", report.slopes.cut), ("fill", report.slopes.fill)] {
+        if let Some(slope) = slope {
+            page.words(name, &forms(slope));
+        }
+    }
+    page.section("Extent");
+    let kind = match report.extent.kind {
+        ExtentKind::Elevation => "to elevation",
+        ExtentKind::Height => "height",
+        ExtentKind::Distance => "plan distance",
+    };
+    page.length(kind, report.extent.value);
+    if let (Some(first), Some(last)) = (report.levels.first(), report.levels.last()) {
+        page.words("levels", &format!("{} from {first} to {last}", report.levels.len()));
+    }
+    surface(&mut page, &report.surface);
+    certificate(&mut page, &report.certificate);
+    if let Some(volumes) = &report.volumes {
+        self::volumes(&mut page, volumes);
+    }
+    if let Some(depths) = report.depths {
+        page.length("deepest cut", depths.cut_max);
+        page.length("deepest fill", depths.fill_max);
+    }
+    if !report.warnings.is_empty() {
+        page.section("Warnings");
+        for warning in &report.warnings {
+            let message: Vec<String> = warning.message.lines().map(printable).collect();
+            let _ = writeln!(page.text, "  {}: {}", warning.code, message.join("\n    "));
+        }
+    }
+    page.text
+}
+
+fn line(page: &mut Page<'_>, line: &LineFigures) {
+    page.section("Line");
+    page.count("chains", line.chains);
+    page.count("vertices", line.vertices);
+    if line.simplified > 0 {
+        page.count("simplified", line.simplified);
+        page.figure("  greatest shift", &short(line.simplified_max), page.unit);
+    }
+    page.length("length", line.length);
+    page.length("lowest", line.z_min);
+    page.length("highest", line.z_max);
+    page.figure("greatest gradient", &format!("{:.2}", 100.0 * line.gradient_max), "%");
+    if line.buried.is_empty() {
+        return;
+    }
+    page.section("Buried stretches (stations; the line lies outside the surface there)");
+    let names: Vec<[String; 2]> = line.buried.iter().map(|b| [printable(&b.chain), printable(&b.by_chain)]).collect();
+    let width = names.iter().flatten().map(|name| name.chars().count()).max().unwrap_or(0).max("chain".len());
+    let text = &mut page.text;
+    let _ = writeln!(
+        text,
+        "  {:width$}  {:>12}  {:>12}  {:>10}  {:width$}  {:>12}  free from",
+        "chain", "from", "to", "depth", "under", "station"
+    );
+    for (b, [chain, by_chain]) in line.buried.iter().zip(&names) {
+        let free = b.free_slope.and_then(Slope::from_ratio).map_or_else(|| "no slope".to_owned(), Slope::not_flatter);
+        let _ = writeln!(
+            text,
+            "  {:width$}  {:>12.3}  {:>12.3}  {:>10.3}  {:width$}  {:>12.3}  {free}",
+            chain, b.from, b.to, b.depth, by_chain, b.by_station
+        );
+    }
+}
+
+fn surface(page: &mut Page<'_>, surface: &SurfaceFigures) {
+    page.section("Surface");
+    page.count("vertices", surface.vertices);
+    page.count("triangles", surface.triangles);
+    page.area("area in plan", surface.plan_area);
+    page.area("slopes", surface.slope_area);
+    page.area("  of fill", surface.fill_slope_area);
+    page.area("  of cut", surface.cut_slope_area);
+    page.area("platform", surface.platform_area);
+}
+
+fn certificate(page: &mut Page<'_>, c: &Certificate) {
+    let yes = |yes: bool| if yes { "yes" } else { "NO" };
+    page.section("Certificate (measured on this mesh)");
+    page.words("facets pair", yes(c.paired));
+    page.words("manifold", yes(c.manifold));
+    page.words("line kept as edges", yes(c.input_edges_kept));
+    page.count("overlaps", c.overlaps);
+    page.figure("slope deviation", &short(c.slope_max_deviation_deg), "°");
+    page.figure("  planar strips", &short(c.strip_max_deviation_deg), "°");
+    page.figure("  cone sectors", &short(c.sector_max_deviation_deg), "°");
+    page.count("  beyond 0.1°", c.triangles_beyond_0_1deg);
+    page.figure("height deviation", &short(c.height_max_deviation), page.unit);
+}
+
+fn volumes(page: &mut Page<'_>, v: &Volumes) {
+    let against = match v.reference.elevation {
+        Some(z) => format!("{} at elevation {z}", v.reference.kind),
+        None => v.reference.kind.clone(),
+    };
+    page.section(&format!("Volumes ({}, against the {against})", v.method));
+    page.volume("cut", v.cut, "");
+    page.volume("fill", v.fill, "");
+    page.volume("net (cut − fill)", v.net, &format!(" {}", v.balance.word()));
+    page.volume("error at most", v.error_bound, "");
+    page.words("complete", if v.complete { "yes" } else { "NO, the slopes do not reach their end everywhere" });
+}
+
+/// Text from a file, without characters that would move the cursor or colour a terminal.
+fn printable(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+}
+
+/// The four forms of a slope.
+fn forms(slope: SlopeFigures) -> String {
+    Slope::from_ratio(slope.ratio).map_or_else(|| slope.ratio.to_string(), Slope::forms)
+}
+
+/// A small figure: four decimals, or its order of magnitude.
+fn short(value: f64) -> String {
+    /// Smaller ones are written with an exponent.
+    const PLAIN: f64 = 1e-4;
+    if value == 0.0 {
+        "0".to_owned()
+    } else if value.abs() < PLAIN {
+        format!("{value:.1e}")
+    } else {
+        format!("{value:.4}")
+    }
+}
+
+/// The text so far and how to add to it.
+struct Page<'a> {
+    text: String,
+    unit: &'a str,
+}
+
+impl Page<'_> {
+    fn section(&mut self, title: &str) {
+        // Writing to a String cannot fail.
+        let _ = writeln!(self.text, "\n{title}");
+    }
+
+    fn words(&mut self, name: &str, words: &str) {
+        let _ = writeln!(self.text, "  {name:NAME$}{}", printable(words));
+    }
+
+    fn figure(&mut self, name: &str, number: &str, unit: &str) {
+        let gap = if unit == "°" || unit.is_empty() { "" } else { " " };
+        let _ = writeln!(self.text, "  {name:NAME$}{number:>NUMBER$}{gap}{unit}");
+    }
+
+    fn count(&mut self, name: &str, count: usize) {
+        self.figure(name, &count.to_string(), "");
+    }
+
+    fn length(&mut self, name: &str, value: f64) {
+        self.figure(name, &format!("{value:.3}"), self.unit);
+    }
+
+    fn area(&mut self, name: &str, value: f64) {
+        self.figure(name, &format!("{value:.2}"), &format!("{}²", self.unit));
+    }
+
+    fn volume(&mut self, name: &str, value: f64, remark: &str) {
+        self.figure(name, &format!("{value:.2}"), &format!("{}³{remark}", self.unit));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::testing::{compare, full, least};
+
+    #[test]
+    fn a_full_report_is_pinned() {
+        compare(&render(&full()), include_str!("../../tests/golden/report.txt"), "report.txt");
+    }
+
+    #[test]
+    fn sections_that_do_not_apply_are_left_out() {
+        let text = render(&least());
+        for absent in ["Buried", "simplified", "coordinate system", "levels", "Volumes", "deepest", "Warnings", "  cut  "] {
+            assert!(!text.contains(absent), "{absent} in\n{text}");
+        }
+        assert!(text.contains("plan distance") && text.ends_with("m\n"));
+    }
+
+    #[test]
+    fn units_are_those_given() {
+        let mut report = full();
+        report.units.length = "ft".into();
+        let text = render(&report);
+        assert!(text.contains("Lengths in ft, areas in ft², volumes in ft³\n"));
+        assert!(text.contains(" ft³ deficit\n") && !text.contains(" m\n") && !text.contains(" m²") && !text.contains(" m³"));
+    }
+
+    #[test]
+    fn names_from_files_cannot_break_the_page() {
+        let mut report = full();
+        report.line.buried[0].chain = "a\nb\u{1b}[2J".into();
+        report.inputs[0].crs = Some("x\ty".into());
+        report.warnings[0].message = "first\nsecond\u{7}".into();
+        let text = render(&report);
+        assert!(text.contains("\n  a b [2J "), "{text}");
+        assert!(text.contains("buried: first\n    second \n"), "{text}");
+        assert!(text.chars().all(|c| c == '\n' || !c.is_control()));
+    }
+
+    #[test]
+    fn failed_checks_stand_out() {
+        let mut report = full();
+        report.certificate.paired = false;
+        assert!(render(&report).contains("  facets pair         NO\n"));
+    }
+}

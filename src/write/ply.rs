@@ -1,0 +1,86 @@
+//! Stanford PLY, binary little-endian.
+
+use super::obj::{finite_vertex, flush_if_full};
+use super::{EncodeError, GENERATOR};
+use crate::model::{Part, Tin};
+use std::io::Write;
+
+/// Writes a mesh as binary little-endian PLY: vertices as three doubles in world coordinates, faces as a list of three `int`
+/// indices followed by the `uchar` property `part`, in the order of the mesh. Comments name the parts.
+///
+/// # Errors
+/// [`EncodeError::Io`] from the sink, [`EncodeError::NotFinite`] for a vertex with a coordinate that is no number,
+/// [`EncodeError::TooMany`] when the indices do not fit the format's `int`.
+pub fn write_ply(out: &mut (impl Write + ?Sized), tin: &Tin) -> Result<(), EncodeError> {
+    let most = i32::MAX as usize;
+    if tin.vertices.len() > most {
+        return Err(EncodeError::TooMany { what: "vertices", count: tin.vertices.len(), most });
+    }
+    let mut bytes = header(tin).into_bytes();
+    for i in 0..tin.vertices.len() {
+        let mut record = [0_u8; 24];
+        for (field, value) in record.chunks_exact_mut(8).zip(finite_vertex(tin, i)?) {
+            field.copy_from_slice(&value.to_le_bytes());
+        }
+        bytes.extend_from_slice(&record);
+        flush_if_full(out, &mut bytes)?;
+    }
+    for (triangle, part) in tin.triangles.iter().zip(&tin.parts) {
+        let mut record = [3_u8; 14];
+        for (field, corner) in record[1..13].chunks_exact_mut(4).zip(triangle) {
+            field.copy_from_slice(&corner.to_le_bytes());
+        }
+        record[13] = *part as u8;
+        bytes.extend_from_slice(&record);
+        flush_if_full(out, &mut bytes)?;
+    }
+    out.write_all(&bytes)?;
+    Ok(())
+}
+
+/// Everything up to and including the `end_header` line.
+fn header(tin: &Tin) -> String {
+    let parts: String = Part::ALL.iter().map(|p| format!("comment part {} {}\n", *p as u8, p.name())).collect();
+    format!(
+        "ply\nformat binary_little_endian 1.0\ncomment {GENERATOR}\n{parts}\
+         element vertex {}\nproperty double x\nproperty double y\nproperty double z\n\
+         element face {}\nproperty list uchar int vertex_indices\nproperty uchar part\nend_header\n",
+        tin.vertices.len(),
+        tin.triangles.len(),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::write::testing::{awkward_tin, read_ply};
+
+    #[test]
+    fn round_trip_is_bit_exact() {
+        let tin = awkward_tin(120);
+        let mut bytes = Vec::new();
+        write_ply(&mut bytes, &tin).unwrap();
+        let (vertices, faces) = read_ply(&bytes);
+        let expected: Vec<[u64; 3]> = (0..tin.vertices.len()).map(|i| tin.world(i).to_array().map(f64::to_bits)).collect();
+        assert_eq!(vertices, expected);
+        assert_eq!(faces, tin.triangles.iter().zip(&tin.parts).map(|(t, p)| (*p as u8, *t)).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn header_names_program_and_parts() {
+        let mut bytes = Vec::new();
+        write_ply(&mut bytes, &awkward_tin(1)).unwrap();
+        let expected = format!(
+            "ply\nformat binary_little_endian 1.0\ncomment {GENERATOR}\ncomment part 0 platform\ncomment part 1 fill_slope\n\
+             comment part 2 cut_slope\ncomment part 3 ground\nelement vertex 4\n"
+        );
+        assert!(bytes.starts_with(expected.as_bytes()));
+    }
+
+    #[test]
+    fn a_number_that_is_none_is_refused() {
+        let mut tin = awkward_tin(3);
+        tin.vertices[0].x = f64::INFINITY;
+        assert!(matches!(write_ply(&mut Vec::new(), &tin), Err(EncodeError::NotFinite { index: 1, .. })));
+    }
+}
