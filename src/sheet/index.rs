@@ -151,28 +151,43 @@ impl Index {
         }
     }
 
-    /// Calls `visit` with every segment whose sheet reaches `floor` at `x`, in the same order each time. Segments that miss
-    /// it by no more than [`Self::rounding`] come too.
-    pub fn visit_above<F: FnMut(u32)>(&self, x: DVec2, floor: f64, mut visit: F) {
+    /// Calls `visit` with where each segment is stored whose sheet reaches `floor` at `x` (see [`Self::visit_above`]), until
+    /// it returns `false`.
+    pub(super) fn visit_slots_above(&self, x: DVec2, floor: f64, mut visit: impl FnMut(u32) -> bool) {
         let floor = floor - self.rounding(x);
         let mut stack = Stack::new();
-        stack.push((0, f64::INFINITY));
+        stack.push((0, 0.0));
         while let Some((at, _)) = stack.pop() {
             let node = &self.nodes[at as usize];
             if node.bound(x, self.k) < floor {
                 continue;
             }
             if node.count == 0 {
-                stack.push((node.first, 0.0));
                 stack.push((node.first + 1, 0.0));
+                stack.push((node.first, 0.0));
                 continue;
             }
-            for slot in node.first as usize..(node.first + node.count) as usize {
-                if self.segments[slot].height(x, self.k) >= floor {
-                    visit(self.ids[slot]);
+            for slot in node.first..node.first + node.count {
+                if self.height_of_slot(slot, x) >= floor && !visit(slot) {
+                    return;
                 }
             }
         }
+    }
+
+    /// Height at `x` of the sheet of the segment stored at `slot`.
+    #[inline]
+    pub(super) fn height_of_slot(&self, slot: u32, x: DVec2) -> f64 {
+        self.segments[slot as usize].height(x, self.k)
+    }
+
+    /// Calls `visit` with every segment whose sheet reaches `floor` at `x`, in the same order each time. Segments that miss
+    /// it by no more than [`Self::rounding`] come too.
+    pub fn visit_above<F: FnMut(u32)>(&self, x: DVec2, floor: f64, mut visit: F) {
+        self.visit_slots_above(x, floor, |slot| {
+            visit(self.ids[slot as usize]);
+            true
+        });
     }
 
     /// Shortens a ruling to where it is visible: returns its length `r ≤ limit`.
