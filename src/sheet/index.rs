@@ -168,17 +168,17 @@ impl Index {
                 continue;
             }
             for slot in node.first..node.first + node.count {
-                if self.height_of_slot(slot, x) >= floor && !visit(slot) {
+                if self.stored(slot).height(x, self.k) >= floor && !visit(slot) {
                     return;
                 }
             }
         }
     }
 
-    /// Height at `x` of the sheet of the segment stored at `slot`.
+    /// The segment stored at `slot`.
     #[inline]
-    pub(super) fn height_of_slot(&self, slot: u32, x: DVec2) -> f64 {
-        self.segments[slot as usize].height(x, self.k)
+    pub(super) fn stored(&self, slot: u32) -> &Segment {
+        &self.segments[slot as usize]
     }
 
     /// Calls `visit` with every segment whose sheet reaches `floor` at `x`, in the same order each time. Segments that miss

@@ -1,8 +1,8 @@
 //! Heights on a grid: blocks of nodes share a short list of segments.
 //!
 //! All sheets fall by at most `k` per distance. So a segment that is more than `2kρ` below the sheet at the middle of a
-//! block of half diagonal `ρ` is nowhere the highest in it, and neither in a part of the block. The list for a block is
-//! thinned out from that of the block around it, down to a few nodes.
+//! block of half diagonal `ρ` is nowhere the highest in it: so the index finds a list for a large block. It is thinned out
+//! further by tangent planes, and for the quarters of the block again, down to a few segments or nodes.
 
 use std::ops::Range;
 
@@ -54,7 +54,7 @@ pub(super) fn rows(index: &Index, grid: &Grid, origin: DVec2, rows: Range<usize>
     heights.par_chunks_mut((BLOCK * grid.ncols).max(1)).enumerate().for_each(|(band, out)| {
         let from = rows.start + band * BLOCK;
         let count = out.len() / grid.ncols;
-        let mut band = Band { index, grid, origin, from, out, slots: Vec::new(), heights: Vec::new(), hint: None };
+        let mut band = Band { index, grid, origin, from, out, slots: Vec::new(), planes: Vec::new(), hint: None };
         for col in (0..grid.ncols).step_by(BLOCK) {
             band.start(Block { cols: (col, (col + BLOCK).min(grid.ncols)), rows: (from, from + count) });
         }
@@ -91,7 +91,8 @@ struct Band<'a> {
     out: &'a mut [f64],
     /// Lists of segments, a block's behind that of the block around it.
     slots: Vec<u32>,
-    heights: Vec<f64>,
+    /// Heights and gradients of a list's segments at the middle of their block.
+    planes: Vec<(f64, DVec2)>,
     hint: Option<u32>,
 }
 
@@ -100,52 +101,73 @@ impl Band<'_> {
         self.grid.node(col, row) - self.origin
     }
 
-    /// Middle and half diagonal of a block.
-    fn disc(&self, block: Block) -> (DVec2, f64) {
+    /// Middle of a block and half its sides.
+    fn extent(&self, block: Block) -> (DVec2, DVec2) {
         let first = self.local(block.cols.0, block.rows.0);
         let last = self.local(block.cols.1 - 1, block.rows.1 - 1);
-        (0.5 * (first + last), 0.5 * first.distance(last))
+        (0.5 * (first + last), 0.5 * (first - last).abs())
     }
 
     /// Fills a block from the index.
     fn start(&mut self, block: Block) {
-        let (middle, radius) = self.disc(block);
+        let (middle, half) = self.extent(block);
         let (height, winner) = self.index.height(middle, self.hint);
         self.hint = Some(winner);
         self.slots.clear();
-        let floor = height - 2.0 * self.index.k() * radius;
+        let floor = height - 2.0 * self.index.k() * half.length();
         let (most, slots) = (longest(block.nodes()), &mut self.slots);
         self.index.visit_slots_above(middle, floor, |slot| {
             slots.push(slot);
             slots.len() <= most
         });
-        self.fill(block, 0);
+        if self.slots.len() > most { self.query(block) } else { self.fill(block, 0) }
     }
 
-    /// Fills a block whose segments are `slots[list..]`.
+    /// Fills a block with segments out of `slots[list..]`.
     fn fill(&mut self, block: Block, list: usize) {
         let (end, nodes) = (self.slots.len(), block.nodes());
-        let length = end - list;
-        if length > longest(nodes) {
-            return self.query(block);
-        }
-        if length <= SHORT || nodes <= SHORT {
+        if end - list <= SHORT || nodes <= SHORT {
             return self.evaluate(block, list);
         }
-        for quarter in block.quarters().into_iter().filter(|quarter| quarter.nodes() > 0) {
-            let (middle, radius) = self.disc(quarter);
-            self.heights.clear();
-            let heights = self.slots[list..].iter().map(|&slot| self.index.height_of_slot(slot, middle));
-            self.heights.extend(heights);
-            let top = self.heights.iter().fold(f64::NEG_INFINITY, |top, &h| top.max(h));
-            let floor = top - 2.0 * self.index.k() * radius - self.index.rounding(middle);
-            for i in 0..length {
-                if self.heights[i] >= floor {
-                    self.slots.push(self.slots[list + i]);
-                }
+        self.thin(block, list);
+        let length = self.slots.len() - end;
+        if length > longest(nodes) {
+            self.query(block);
+        } else if length <= SHORT {
+            self.evaluate(block, end);
+        } else {
+            for quarter in block.quarters().into_iter().filter(|quarter| quarter.nodes() > 0) {
+                self.fill(quarter, end);
             }
-            self.fill(quarter, end);
-            self.slots.truncate(end);
+        }
+        self.slots.truncate(end);
+    }
+
+    /// Adds those of `slots[list..]` that can be highest somewhere in the block.
+    ///
+    /// A sheet is concave: it lies below its tangent plane, and that of the highest segment at the middle lies above the
+    /// four triangles from the middle to the corners. So a segment whose plane is below those at the corners is out.
+    fn thin(&mut self, block: Block, list: usize) {
+        let (middle, half) = self.extent(block);
+        let k = self.index.k();
+        self.planes.clear();
+        let mut highest = (f64::NEG_INFINITY, 0);
+        for &slot in &self.slots[list..] {
+            let (height, gradient) = self.index.stored(slot).tangent(middle, k);
+            if height > highest.0 {
+                highest = (height, slot);
+            }
+            self.planes.push((height, gradient));
+        }
+        let corners = [half, -half, half * DVec2::new(-1.0, 1.0), half * DVec2::new(1.0, -1.0)];
+        let slack = self.index.rounding(middle) + self.index.rounding(half);
+        let floors = corners.map(|corner| self.index.stored(highest.1).height(middle + corner, k) - slack);
+        for (i, &(height, gradient)) in self.planes.iter().enumerate() {
+            let (rise, twist) = (gradient.dot(half), gradient.dot(corners[3]));
+            let planes = [height + rise, height - rise, height - twist, height + twist];
+            if planes.iter().zip(floors).any(|(plane, floor)| *plane >= floor) {
+                self.slots.push(self.slots[list + i]);
+            }
         }
     }
 
@@ -154,7 +176,7 @@ impl Band<'_> {
         for row in block.rows.0..block.rows.1 {
             for col in block.cols.0..block.cols.1 {
                 let x = self.local(col, row);
-                let heights = self.slots[list..].iter().map(|&slot| self.index.height_of_slot(slot, x));
+                let heights = self.slots[list..].iter().map(|&slot| self.index.stored(slot).height(x, self.index.k()));
                 let height = heights.fold(f64::NEG_INFINITY, f64::max);
                 self.out[(row - self.from) * self.grid.ncols + col] = height;
             }
