@@ -11,7 +11,7 @@ use super::{Ruling, Segment};
 /// Segments per leaf: testing a segment costs about as much as testing a box.
 const LEAF: usize = 4;
 /// Room on the stack of a traversal. Halving 2³² segments takes 32 levels, and each level leaves one node behind.
-const STACK: usize = 64;
+const STACK: usize = 40;
 /// Relative slack of bounds, in units of the scale of the numbers: several times the rounding of one height.
 const SLACK: f64 = 64.0 * f64::EPSILON;
 
@@ -36,10 +36,16 @@ impl Node {
     /// No sheet of the node's segments is higher at `x`, up to rounding.
     #[inline]
     fn bound(&self, x: DVec2, k: f64) -> f64 {
+        self.top - k * self.distance_squared(x).sqrt()
+    }
+
+    /// Plan distance from `x` to the box, squared.
+    #[inline]
+    fn distance_squared(&self, x: DVec2) -> f64 {
         let d = x - self.centre;
         let p = (self.axis.dot(d).abs() - self.half.x).max(0.0);
         let q = (self.axis.perp_dot(d).abs() - self.half.y).max(0.0);
-        self.top - k * (p * p + q * q).sqrt()
+        p * p + q * q
     }
 }
 
@@ -199,29 +205,29 @@ impl Index {
     ///
     /// Precondition: `limit` is finite.
     pub fn trim(&self, ruling: &Ruling, limit: f64, crossing: &mut impl FnMut(u32, f64) -> f64) -> f64 {
-        let mut r = limit;
-        let mut end = ruling.at(r);
-        let slack = self.rounding(end).max(self.rounding(ruling.foot));
-        let mut floor = ruling.z - self.k * r - slack;
+        let slack = self.rounding(ruling.at(limit)).max(self.rounding(ruling.foot));
+        let mut trim = Trim { index: self, ruling, r: limit, end: ruling.at(limit), slack, crossing };
+        // Most rulings of a rough line end close to their foot: its surroundings come first.
+        let mut node = &self.nodes[0];
+        while node.count == 0 {
+            let (left, right) = (&self.nodes[node.first as usize], &self.nodes[node.first as usize + 1]);
+            node = if left.distance_squared(ruling.foot) <= right.distance_squared(ruling.foot) { left } else { right };
+        }
+        trim.leaf(node);
+        let near = node.first;
         let mut stack = Stack::new();
         let mut node = &self.nodes[0];
         loop {
             if node.count > 0 {
-                for slot in node.first as usize..(node.first + node.count) as usize {
-                    if self.segments[slot].height(end, self.k) >= floor {
-                        let shorter = crossing(self.ids[slot], r);
-                        if shorter < r {
-                            r = shorter;
-                            end = ruling.at(r);
-                            floor = ruling.z - self.k * r - slack;
-                        }
-                    }
+                if node.first != near {
+                    trim.leaf(node);
                 }
             } else {
-                let (near, far) = self.children(node, end);
+                let (near, far) = self.children(node, trim.end);
+                let floor = trim.floor();
                 if far.1 >= floor {
                     // Kept with the length its bound was taken at.
-                    stack.push((far.0, r));
+                    stack.push((far.0, trim.r));
                 }
                 if near.1 >= floor {
                     node = &self.nodes[near.0 as usize];
@@ -229,9 +235,9 @@ impl Index {
                 }
             }
             loop {
-                let Some((next, taken_at)) = stack.pop() else { return r };
+                let Some((next, taken_at)) = stack.pop() else { return trim.r };
                 node = &self.nodes[next as usize];
-                if taken_at == r || node.bound(end, self.k) >= floor {
+                if taken_at == trim.r || node.bound(trim.end, self.k) >= trim.floor() {
                     break;
                 }
             }
@@ -245,6 +251,38 @@ impl Index {
         let left = (node.first, self.nodes[at].bound(x, self.k));
         let right = (node.first + 1, self.nodes[at + 1].bound(x, self.k));
         if left.1 >= right.1 { (left, right) } else { (right, left) }
+    }
+}
+
+/// A ruling being shortened.
+struct Trim<'a, F> {
+    index: &'a Index,
+    ruling: &'a Ruling,
+    r: f64,
+    end: DVec2,
+    slack: f64,
+    crossing: &'a mut F,
+}
+
+impl<F: FnMut(u32, f64) -> f64> Trim<'_, F> {
+    /// Height of the ruling's end, less the slack: what does not reach it there does not cross before.
+    #[inline]
+    fn floor(&self) -> f64 {
+        self.ruling.z - self.index.k * self.r - self.slack
+    }
+
+    /// Tries the segments of a leaf.
+    #[inline]
+    fn leaf(&mut self, node: &Node) {
+        for slot in node.first as usize..(node.first + node.count) as usize {
+            if self.index.segments[slot].height(self.end, self.index.k) >= self.floor() {
+                let shorter = (self.crossing)(self.index.ids[slot], self.r);
+                if shorter < self.r {
+                    self.r = shorter;
+                    self.end = self.ruling.at(shorter);
+                }
+            }
+        }
     }
 }
 

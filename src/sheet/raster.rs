@@ -36,7 +36,7 @@ impl Grid {
 }
 
 /// Nodes along the side of the blocks to start with.
-const BLOCK: usize = 32;
+const BLOCK: usize = 64;
 /// A query of the index costs about as much as this many heights of segments: lists longer than that per node do not pay.
 const QUERY: usize = 64;
 /// A list of this length is not thinned out any further, nor for a block of this many nodes.
