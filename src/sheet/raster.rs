@@ -38,7 +38,7 @@ impl Grid {
 /// Nodes along the side of the blocks to start with.
 const BLOCK: usize = 64;
 /// A query of the index costs about as much as this many heights of segments: lists longer than that per node do not pay.
-const QUERY: usize = 64;
+const QUERY: usize = 32;
 /// A list of this length is not thinned out any further, nor for a block of this many nodes.
 const SHORT: usize = 4;
 
@@ -48,7 +48,7 @@ fn longest(nodes: usize) -> usize {
 }
 
 /// Heights of the falling sheet at the nodes of some rows of a grid, row by row, each from west to east. `origin` is what
-/// the index's local frame takes off the grid's coordinates. Exactly [`Index::height`] at each node.
+/// the index's local frame takes off the grid's coordinates. Exactly [`Index::height`] at each node, whatever the threads.
 pub(super) fn rows(index: &Index, grid: &Grid, origin: DVec2, rows: Range<usize>) -> Vec<f64> {
     let mut heights = vec![0.0; grid.ncols * rows.len()];
     heights.par_chunks_mut((BLOCK * grid.ncols).max(1)).enumerate().for_each(|(band, out)| {
@@ -160,6 +160,7 @@ impl Band<'_> {
             self.planes.push((height, gradient));
         }
         let corners = [half, -half, half * DVec2::new(-1.0, 1.0), half * DVec2::new(1.0, -1.0)];
+        // The second term covers the way to the corners.
         let slack = self.index.rounding(middle) + self.index.rounding(half);
         let floors = corners.map(|corner| self.index.stored(highest.1).height(middle + corner, k) - slack);
         for (i, &(height, gradient)) in self.planes.iter().enumerate() {
@@ -190,6 +191,29 @@ impl Band<'_> {
                 let (height, winner) = self.index.height(self.local(col, row), self.hint);
                 self.hint = Some(winner);
                 self.out[(row - self.from) * self.grid.ncols + col] = height;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sheet::testing::{Random, sets};
+
+    #[test]
+    fn blocks_change_no_bit() {
+        let mut random = Random::new(9);
+        for (k, segments) in sets(&mut random) {
+            let index = Index::new(&segments, k);
+            for cell in [1e-5, 0.02, 1.5, 300.0] {
+                let near = segments[segments.len() / 2].a - 40.0 * cell;
+                let grid = Grid { xll: near.x, yll: near.y, cell, ncols: 83, nrows: 70 };
+                let found = rows(&index, &grid, DVec2::ZERO, 3..70);
+                for (i, height) in found.iter().enumerate() {
+                    let x = grid.node(i % 83, 3 + i / 83);
+                    assert_eq!(*height, index.height(x, None).0, "{} segments, cell {cell}, at {x}", segments.len());
+                }
             }
         }
     }

@@ -79,9 +79,9 @@ impl Segment {
     /// Height of the segment's sheet at `x`.
     ///
     /// # Accuracy
-    /// Within 1e-15 times `|za| + k·(|x − a| + length)`, times ten, for `|γ| ≤ 0.9999 k` and any length; proved by test
-    /// `agrees_with_a_search_along_the_segment`. The ends' cones start from the ends as given, so that segments which share
-    /// a vertex agree there to the last bit.
+    /// Within 1e-14 of `|za| + k·(|x − a| + length)`, plus 1e-15 of the coordinates, for `|γ| ≤ 0.9999 k` and any length;
+    /// proved by test `agrees_with_a_search_along_the_segment`. The ends' cones start from the ends as given, so that
+    /// segments which share a vertex agree on its cone to the last bit.
     #[inline]
     pub fn height(&self, x: DVec2, k: f64) -> f64 {
         let p = self.local(x);
@@ -192,7 +192,7 @@ mod tests {
             }
             let segment = Segment::new(a, b, k);
             let (found, expected) = (segment.height(x, k), searched(a, b, x, k));
-            let scale = a.z.abs() + k * (x.distance(a.truncate()) + length) + a.length() * 1e-1;
+            let scale = a.z.abs() + k * (x.distance(a.truncate()) + length) + 0.1 * a.length();
             assert!((found - expected).abs() <= 1e-14 * scale, "{i}: {found} for {expected}, {segment:?} at {x}");
             // The foot attains that height.
             let foot = segment.point(segment.foot(x));
