@@ -1,31 +1,36 @@
 //! A bounding volume hierarchy over segments, for the upper envelope of their sheets.
 //!
-//! Every node is a box turned to the run of its segments, with the greatest height in it. No sheet of a node reaches higher
-//! at `x` than `top − k·distance(x, box)`: that prunes. The boxes are turned because a line runs in all directions: an
-//! upright box about a diagonal stretch is as wide as it is long, and its bound is worth little.
+//! Every node is a box turned to the run of its segments, under a lid that rises with them. No sheet of a node reaches higher
+//! at `x` than the sheet of the lid: that prunes. An upright box with a level lid would do, but worse: about a diagonal
+//! stretch it is as wide as it is long, and above a steep one far too high (ten times slower on a long road near the slope).
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::{Ruling, Segment};
 
 /// Segments per leaf: testing a segment costs about as much as testing a box.
-const LEAF: usize = 4;
+const LEAF: usize = 8;
 /// Room on the stack of a traversal. Halving 2³² segments takes 32 levels, and each level leaves one node behind.
-const STACK: usize = 64;
+const STACK: usize = 40;
+/// The steepest lid of a box, in slopes: short of 1, where its bound would lose its digits.
+const STEEPEST_LID: f64 = 0.999;
 /// Relative slack of bounds, in units of the scale of the numbers: several times the rounding of one height.
 const SLACK: f64 = 64.0 * f64::EPSILON;
 
 /// A box about segments.
 #[derive(Clone, Copy, Debug)]
-#[repr(align(64))]
 struct Node {
     centre: DVec2,
     /// Unit vector of its long side.
     axis: DVec2,
     /// Half its sides: along the axis and across.
     half: DVec2,
-    /// Greatest height of the segments in it.
-    top: f64,
+    /// Height at the middle of the lid: the plane that covers the segments in it, level across the axis.
+    lid: f64,
+    /// Rise of the lid along the axis, flatter than `k`.
+    rise: f64,
+    /// `rise / √(k² − rise²)`.
+    lean: f64,
     /// First segment of a leaf; left child of an inner node, the right child follows it.
     first: u32,
     /// Number of segments of a leaf; nought for an inner node.
@@ -37,9 +42,20 @@ impl Node {
     #[inline]
     fn bound(&self, x: DVec2, k: f64) -> f64 {
         let d = x - self.centre;
+        let p = self.axis.dot(d);
+        let q = (self.axis.perp_dot(d).abs() - self.half.y).max(0.0);
+        let foot = (p + q * self.lean).clamp(-self.half.x, self.half.x);
+        let along = p - foot;
+        self.lid + self.rise * foot - k * (along * along + q * q).sqrt()
+    }
+
+    /// Plan distance from `x` to the box, squared.
+    #[inline]
+    fn distance_squared(&self, x: DVec2) -> f64 {
+        let d = x - self.centre;
         let p = (self.axis.dot(d).abs() - self.half.x).max(0.0);
         let q = (self.axis.perp_dot(d).abs() - self.half.y).max(0.0);
-        self.top - k * (p * p + q * q).sqrt()
+        p * p + q * q
     }
 }
 
@@ -67,7 +83,7 @@ impl Index {
     pub fn new(segments: &[Segment], k: f64) -> Self {
         debug_assert!(!segments.is_empty(), "bug: an index of no segments");
         let mut ids: Vec<u32> = (0..segments.len() as u32).collect();
-        let nodes = build(segments, &mut ids);
+        let nodes = build(segments, &mut ids, k);
         let mut slots = vec![0; ids.len()];
         for (slot, &id) in ids.iter().enumerate() {
             slots[id as usize] = slot as u32;
@@ -151,28 +167,43 @@ impl Index {
         }
     }
 
-    /// Calls `visit` with every segment whose sheet reaches `floor` at `x`, in the same order each time. Segments that miss
-    /// it by no more than [`Self::rounding`] come too.
-    pub fn visit_above<F: FnMut(u32)>(&self, x: DVec2, floor: f64, mut visit: F) {
+    /// Calls `visit` with where each segment is stored whose sheet reaches `floor` at `x` (see [`Self::visit_above`]), until
+    /// it returns `false`.
+    pub(super) fn visit_slots_above(&self, x: DVec2, floor: f64, mut visit: impl FnMut(u32) -> bool) {
         let floor = floor - self.rounding(x);
         let mut stack = Stack::new();
-        stack.push((0, f64::INFINITY));
+        stack.push((0, 0.0));
         while let Some((at, _)) = stack.pop() {
             let node = &self.nodes[at as usize];
             if node.bound(x, self.k) < floor {
                 continue;
             }
             if node.count == 0 {
-                stack.push((node.first, 0.0));
                 stack.push((node.first + 1, 0.0));
+                stack.push((node.first, 0.0));
                 continue;
             }
-            for slot in node.first as usize..(node.first + node.count) as usize {
-                if self.segments[slot].height(x, self.k) >= floor {
-                    visit(self.ids[slot]);
+            for slot in node.first..node.first + node.count {
+                if self.stored(slot).height(x, self.k) >= floor && !visit(slot) {
+                    return;
                 }
             }
         }
+    }
+
+    /// The segment stored at `slot`.
+    #[inline]
+    pub(super) fn stored(&self, slot: u32) -> &Segment {
+        &self.segments[slot as usize]
+    }
+
+    /// Calls `visit` with every segment whose sheet reaches `floor` at `x`, in the same order each time. Segments that miss
+    /// it by no more than [`Self::rounding`] come too.
+    pub fn visit_above<F: FnMut(u32)>(&self, x: DVec2, floor: f64, mut visit: F) {
+        self.visit_slots_above(x, floor, |slot| {
+            visit(self.ids[slot as usize]);
+            true
+        });
     }
 
     /// Shortens a ruling to where it is visible: returns its length `r ≤ limit`.
@@ -184,29 +215,29 @@ impl Index {
     ///
     /// Precondition: `limit` is finite.
     pub fn trim(&self, ruling: &Ruling, limit: f64, crossing: &mut impl FnMut(u32, f64) -> f64) -> f64 {
-        let mut r = limit;
-        let mut end = ruling.at(r);
-        let slack = self.rounding(end).max(self.rounding(ruling.foot));
-        let mut floor = ruling.z - self.k * r - slack;
+        let slack = self.rounding(ruling.at(limit)).max(self.rounding(ruling.foot));
+        let mut trim = Trim { index: self, ruling, r: limit, end: ruling.at(limit), slack, crossing };
+        // Most rulings of a rough line end close to their foot: its surroundings come first.
+        let mut node = &self.nodes[0];
+        while node.count == 0 {
+            let (left, right) = (&self.nodes[node.first as usize], &self.nodes[node.first as usize + 1]);
+            node = if left.distance_squared(ruling.foot) <= right.distance_squared(ruling.foot) { left } else { right };
+        }
+        trim.leaf(node);
+        let near = node.first;
         let mut stack = Stack::new();
         let mut node = &self.nodes[0];
         loop {
             if node.count > 0 {
-                for slot in node.first as usize..(node.first + node.count) as usize {
-                    if self.segments[slot].height(end, self.k) >= floor {
-                        let shorter = crossing(self.ids[slot], r);
-                        if shorter < r {
-                            r = shorter;
-                            end = ruling.at(r);
-                            floor = ruling.z - self.k * r - slack;
-                        }
-                    }
+                if node.first != near {
+                    trim.leaf(node);
                 }
             } else {
-                let (near, far) = self.children(node, end);
+                let (near, far) = self.children(node, trim.end);
+                let floor = trim.floor();
                 if far.1 >= floor {
                     // Kept with the length its bound was taken at.
-                    stack.push((far.0, r));
+                    stack.push((far.0, trim.r));
                 }
                 if near.1 >= floor {
                     node = &self.nodes[near.0 as usize];
@@ -214,9 +245,9 @@ impl Index {
                 }
             }
             loop {
-                let Some((next, taken_at)) = stack.pop() else { return r };
+                let Some((next, taken_at)) = stack.pop() else { return trim.r };
                 node = &self.nodes[next as usize];
-                if taken_at == r || node.bound(end, self.k) >= floor {
+                if taken_at == trim.r || node.bound(trim.end, self.k) >= trim.floor() {
                     break;
                 }
             }
@@ -230,6 +261,38 @@ impl Index {
         let left = (node.first, self.nodes[at].bound(x, self.k));
         let right = (node.first + 1, self.nodes[at + 1].bound(x, self.k));
         if left.1 >= right.1 { (left, right) } else { (right, left) }
+    }
+}
+
+/// A ruling being shortened.
+struct Trim<'a, F> {
+    index: &'a Index,
+    ruling: &'a Ruling,
+    r: f64,
+    end: DVec2,
+    slack: f64,
+    crossing: &'a mut F,
+}
+
+impl<F: FnMut(u32, f64) -> f64> Trim<'_, F> {
+    /// Height of the ruling's end, less the slack: what does not reach it there does not cross before.
+    #[inline]
+    fn floor(&self) -> f64 {
+        self.ruling.z - self.index.k * self.r - self.slack
+    }
+
+    /// Tries the segments of a leaf.
+    #[inline]
+    fn leaf(&mut self, node: &Node) {
+        for slot in node.first as usize..(node.first + node.count) as usize {
+            if self.index.segments[slot].height(self.end, self.index.k) >= self.floor() {
+                let shorter = (self.crossing)(self.index.ids[slot], self.r);
+                if shorter < self.r {
+                    self.r = shorter;
+                    self.end = self.ruling.at(shorter);
+                }
+            }
+        }
     }
 }
 
@@ -259,12 +322,12 @@ impl Stack {
 }
 
 /// Builds the nodes from the top and puts `ids` into the order of the leaves.
-fn build(segments: &[Segment], ids: &mut [u32]) -> Vec<Node> {
+fn build(segments: &[Segment], ids: &mut [u32], k: f64) -> Vec<Node> {
     let middle = |id: u32| {
         let segment = &segments[id as usize];
         0.5 * (segment.a + segment.b)
     };
-    let mut nodes = vec![boxed(segments, ids)];
+    let mut nodes = vec![boxed(segments, ids, k)];
     let mut open = vec![(0, 0, ids.len())];
     while let Some((at, from, to)) = open.pop() {
         if to - from <= LEAF {
@@ -284,34 +347,40 @@ fn build(segments: &[Segment], ids: &mut [u32]) -> Vec<Node> {
         part.select_nth_unstable_by(half, |&i, &j| key(i).total_cmp(&key(j)).then(i.cmp(&j)));
         let children = nodes.len();
         nodes[at].first = children as u32;
-        nodes.push(boxed(segments, &ids[from..from + half]));
-        nodes.push(boxed(segments, &ids[from + half..to]));
+        nodes.push(boxed(segments, &ids[from..from + half], k));
+        nodes.push(boxed(segments, &ids[from + half..to], k));
         open.push((children + 1, from + half, to));
         open.push((children, from, from + half));
     }
     nodes
 }
 
-/// The box about some segments, turned to the principal axis of their ends.
-fn boxed(segments: &[Segment], ids: &[u32]) -> Node {
-    let ends = || ids.iter().flat_map(|&id| [segments[id as usize].a, segments[id as usize].b]);
-    let mean = ends().sum::<DVec2>() / (2 * ids.len()) as f64;
-    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+/// The box about some segments, turned to the principal axis of their ends, with its lid.
+fn boxed(segments: &[Segment], ids: &[u32], k: f64) -> Node {
+    let ends = || ids.iter().map(|&id| &segments[id as usize]).flat_map(|s| [s.a.extend(s.za), s.b.extend(s.zb)]);
+    let mean = ends().sum::<DVec3>() / (2 * ids.len()) as f64;
+    let (mut xx, mut xy, mut yy, mut tilt) = (0.0, 0.0, 0.0, DVec2::ZERO);
     for d in ends().map(|p| p - mean) {
         xx += d.x * d.x;
         xy += d.x * d.y;
         yy += d.y * d.y;
+        tilt += d.z * d.truncate();
     }
     let axis = principal_axis(0.5 * (xx - yy), xy);
-    let (mut lo, mut hi) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    for d in ends().map(|p| p - mean) {
+    let (mut lo, mut hi, mut spread) = (DVec2::INFINITY, DVec2::NEG_INFINITY, 0.0);
+    for d in ends().map(|p| p.truncate() - mean.truncate()) {
         let local = DVec2::new(axis.dot(d), axis.perp_dot(d));
         lo = lo.min(local);
         hi = hi.max(local);
+        spread += local.x * local.x;
     }
     let middle = 0.5 * (lo + hi);
-    let top = ids.iter().fold(f64::NEG_INFINITY, |m, &id| m.max(segments[id as usize].za).max(segments[id as usize].zb));
-    Node { centre: mean + middle.x * axis + middle.y * axis.perp(), axis, half: 0.5 * (hi - lo), top, first: 0, count: 0 }
+    let centre = mean.truncate() + middle.x * axis + middle.y * axis.perp();
+    // The straight line of best fit, then lifted to cover all.
+    let rise = if spread > 0.0 { (axis.dot(tilt) / spread).clamp(-STEEPEST_LID * k, STEEPEST_LID * k) } else { 0.0 };
+    let lid = ends().fold(f64::NEG_INFINITY, |lid, p| lid.max(p.z - rise * axis.dot(p.truncate() - centre)));
+    let lean = rise / ((k - rise) * (k + rise)).sqrt();
+    Node { centre, axis, half: 0.5 * (hi - lo), lid, rise, lean, first: 0, count: 0 }
 }
 
 /// Unit eigenvector of the larger eigenvalue of the symmetric matrix with half difference of diagonal `c` and
@@ -445,11 +514,19 @@ mod tests {
             }
             assert_eq!(seen, segments.len());
         }
-        // A diagonal stretch has a thin box.
-        let diagonal: Vec<Segment> = (0..64)
-            .map(|i| f64::from(i) * glam::DVec3::new(1.0, 1.0, 0.0))
-            .map(|a| Segment::new(a, a + glam::DVec3::new(1.0, 1.0, 0.0), 0.5))
-            .collect();
-        assert!(Index::new(&diagonal, 0.5).nodes[0].half.y <= 1e-12);
+    }
+
+    #[test]
+    fn box_of_a_straight_line_is_as_good_as_the_line() {
+        // A diagonal rise of 0.9 k: thin box, slanting lid, so the bound is the height itself.
+        let step = DVec3::new(1.0, 1.0, 0.45 * 2f64.sqrt());
+        let point = |i: u32| f64::from(i) * step;
+        let segments: Vec<Segment> = (0..64).map(|i| Segment::new(point(i), point(i + 1), 0.5)).collect();
+        let index = Index::new(&segments, 0.5);
+        assert!(index.nodes[0].half.y <= 1e-12);
+        for x in [DVec2::new(30.0, 0.0), DVec2::new(0.0, 90.0), DVec2::new(-20.0, -30.0), DVec2::new(99.0, 99.0)] {
+            let (bound, height) = (index.nodes[0].bound(x, 0.5), index.height(x, None).0);
+            assert!((bound - height).abs() <= 1e-12, "{bound} for {height} at {x}");
+        }
     }
 }

@@ -4,9 +4,13 @@
 //! mirrored in z by the caller ([`Heights`] does it itself).
 
 pub mod index;
+pub mod raster;
+pub mod sample;
 pub mod segment;
 #[cfg(test)]
 mod testing;
 
 pub use index::Index;
+pub use raster::Grid;
+pub use sample::Heights;
 pub use segment::{Ruling, Segment};

@@ -79,9 +79,9 @@ impl Segment {
     /// Height of the segment's sheet at `x`.
     ///
     /// # Accuracy
-    /// Within 1e-15 times `|za| + k·(|x − a| + length)`, times ten, for `|γ| ≤ 0.9999 k` and any length; proved by test
-    /// `agrees_with_a_search_along_the_segment`. The ends' cones start from the ends as given, so that segments which share
-    /// a vertex agree there to the last bit.
+    /// Within 1e-14 of `|za| + k·(|x − a| + length)`, plus 1e-15 of the coordinates, for `|γ| ≤ 0.9999 k` and any length;
+    /// proved by test `agrees_with_a_search_along_the_segment`. The ends' cones start from the ends as given, so that
+    /// segments which share a vertex agree on its cone to the last bit.
     #[inline]
     pub fn height(&self, x: DVec2, k: f64) -> f64 {
         let p = self.local(x);
@@ -93,6 +93,28 @@ impl Segment {
             self.zb - k * x.distance(self.b)
         } else {
             self.za + (self.gamma * p.x - self.drop * t)
+        }
+    }
+
+    /// Height of the segment's sheet at `x`, the same as [`Self::height`], and its gradient there. The sheet is concave: it
+    /// lies nowhere above the plane of that height and gradient. On the segment itself, where the sheet has an edge, the
+    /// gradient is that of the segment; at an end nought.
+    #[inline]
+    pub fn tangent(&self, x: DVec2, k: f64) -> (f64, DVec2) {
+        let p = self.local(x);
+        let t = p.y.abs();
+        let foot = p.x + t * self.tan_phi;
+        let cone = |end: DVec2, z: f64| {
+            let distance = x.distance(end);
+            (z - k * distance, if distance > 0.0 { (end - x) * (k / distance) } else { DVec2::ZERO })
+        };
+        if foot <= 0.0 {
+            cone(self.a, self.za)
+        } else if foot >= self.length {
+            cone(self.b, self.zb)
+        } else {
+            let across = if t > 0.0 { self.drop.copysign(p.y) } else { 0.0 };
+            (self.za + (self.gamma * p.x - self.drop * t), self.gamma * self.u - across * self.u.perp())
         }
     }
 
@@ -170,12 +192,31 @@ mod tests {
             }
             let segment = Segment::new(a, b, k);
             let (found, expected) = (segment.height(x, k), searched(a, b, x, k));
-            let scale = a.z.abs() + k * (x.distance(a.truncate()) + length) + a.length() * 1e-1;
+            let scale = a.z.abs() + k * (x.distance(a.truncate()) + length) + 0.1 * a.length();
             assert!((found - expected).abs() <= 1e-14 * scale, "{i}: {found} for {expected}, {segment:?} at {x}");
             // The foot attains that height.
             let foot = segment.point(segment.foot(x));
             let attained = foot.z - k * foot.truncate().distance(x);
             assert!((attained - expected).abs() <= 1e-12 * scale, "{i}: foot attains {attained} for {expected}");
+        }
+    }
+
+    #[test]
+    fn lies_below_its_tangent_planes() {
+        let mut random = Random::new(8);
+        for i in 0..2000 {
+            let (k, length) = (random.between(0.1, 3.0), [1e-4, 10.0][i % 2]);
+            let b = DVec3::new(0.6 * length, -0.8 * length, length * k * random.between(-0.99, 0.99));
+            let segment = Segment::new(DVec3::ZERO, b, k);
+            let mut place = || DVec2::new(random.between(-9.0, 9.0), random.between(-9.0, 9.0));
+            let at = if i % 20 == 0 { segment.point(0.3 * length).truncate() } else { place() };
+            let (height, gradient) = segment.tangent(at, k);
+            assert_eq!(height, segment.height(at, k));
+            assert!(i % 20 == 0 || (gradient.length() - k).abs() <= 1e-14, "the sheet has slope k");
+            for _ in 0..20 {
+                let x = place();
+                assert!(segment.height(x, k) <= height + gradient.dot(x - at) + 1e-13, "{segment:?} from {at} to {x}");
+            }
         }
     }
 
