@@ -2,10 +2,12 @@
 
 pub mod design;
 pub mod line;
+pub mod note;
 pub mod slope;
 pub mod tin;
 
 pub use design::{Design, Extent, Sheet, Side};
 pub use line::{Chain, Line, Place, Role};
+pub use note::{Defect, Defects, Note};
 pub use slope::Slope;
 pub use tin::{CurveKind, LineFeature, Part, Tin};
