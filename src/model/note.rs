@@ -39,10 +39,13 @@ const LISTED: usize = 20;
 /// All defects of one input: never empty when returned as an error.
 ///
 /// `Display` writes one block per defect, without the leading `error: ` of the first (whoever prints it puts that), blocks of
-/// one code together in the order of first occurrence, the help once under the last block of its code:
+/// one code together in the order of first occurrence, what is wrong once for blocks that say the same, the help once under
+/// the last block of its code:
 /// ```text
 /// error: <what>
 ///   --> <path>, feature 2, vertices 7 to 8
+///    = <figures>
+///   --> <path>, feature 3, vertices 1 to 2
 ///    = <figures>
 ///    = help: <cure>
 /// ```
@@ -123,11 +126,14 @@ impl fmt::Display for Defects {
         let mut first = true;
         for (code, _) in &self.counts {
             let mut help = "";
+            let mut said = "";
             for defect in self.list.iter().filter(|d| d.code == *code) {
-                if !std::mem::take(&mut first) {
-                    f.write_str("\nerror: ")?;
+                if said != defect.what {
+                    let separator = if std::mem::take(&mut first) { "" } else { "\nerror: " };
+                    write!(f, "{separator}{}", defect.what)?;
+                    said = &defect.what;
                 }
-                write!(f, "{}\n  --> {}", defect.what, defect.at)?;
+                write!(f, "\n  --> {}", defect.at)?;
                 if let Some(figures) = &defect.figures {
                     write!(f, "\n   = {figures}")?;
                 }

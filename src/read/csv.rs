@@ -338,7 +338,9 @@ struct Checks<'a> {
 impl Checks<'_> {
     fn read(&mut self, record: &::csv::ByteRecord, row: u32) -> Option<(f64, f64, Option<f64>)> {
         let columns = *self.columns;
-        let extra = (columns.named..record.len()).any(|i| !text_of(record, i).is_empty());
+        // A comment may end the row.
+        let extra = (columns.named..record.len()).map(|i| text_of(record, i)).take_while(|text| !text.starts_with('#'));
+        let extra = extra.into_iter().any(|text| !text.is_empty());
         if extra && !columns.open_ended {
             self.push("too-many-fields", row, "the row has more fields than there are columns", || {
                 let figures = format!("{} fields, {} columns: `{}`", record.len(), columns.named, show(record));
@@ -377,7 +379,14 @@ impl Checks<'_> {
             return None;
         }
         let text = text_of(record, column);
-        match number::field(text, self.delimiter.decimal_comma()) {
+        let mut field = number::field(text, self.delimiter.decimal_comma());
+        if field == Field::Text
+            && let Some((before, _comment)) = text.split_once('#')
+            && !before.is_empty()
+        {
+            field = number::field(before, self.delimiter.decimal_comma());
+        }
+        match field {
             Field::Number(value, mark) => {
                 let seen = match mark {
                     Mark::Point => Some(&mut self.point),
