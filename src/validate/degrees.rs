@@ -2,7 +2,7 @@
 
 use super::vertices::show;
 use crate::model::{Defect, Defects, Note};
-use crate::read::{CoordinateKind, RawInput};
+use crate::read::{CoordinateKind, InputFormat, RawInput};
 
 /// An input with plan coordinates inside the range of degrees and an extent below this in both directions is taken for
 /// degrees if it says nothing about itself and lies far from zero: one degree is 111 km, so earthworks in degrees are always
@@ -74,12 +74,14 @@ pub(super) fn check(raw: &RawInput, defects: &mut Defects, notes: &mut Vec<Note>
 fn command(raw: &RawInput, epsg: i64) -> String {
     let label = &raw.source.label;
     match raw.source.format {
-        crate::read::InputFormat::GeoJson => {
-            format!("ogr2ogr -f GeoJSON -lco RFC7946=NO -s_srs EPSG:4326 -t_srs EPSG:{epsg} projected.geojson {label}")
+        InputFormat::GeoJson => {
+            format!("ogr2ogr -f GeoJSON -s_srs EPSG:4326 -t_srs EPSG:{epsg} projected.geojson {label}")
         }
-        crate::read::InputFormat::Csv => format!(
-            "ogr2ogr -f CSV -lco GEOMETRY=AS_XYZ -oo X_POSSIBLE_NAMES=lon*,x -oo Y_POSSIBLE_NAMES=lat*,y -oo \
-             Z_POSSIBLE_NAMES=z,elev*,ele,h* -s_srs EPSG:4326 -t_srs EPSG:{epsg} projected.csv {label}"
+        // The old columns must go, or the new file has two for each direction.
+        InputFormat::Csv => format!(
+            "ogr2ogr -f CSV -lco GEOMETRY=AS_XYZ -oo \"X_POSSIBLE_NAMES=lon*,x\" -oo \"Y_POSSIBLE_NAMES=lat*,y\" -oo \
+             \"Z_POSSIBLE_NAMES=z,el*,h*,alt*\" -oo KEEP_GEOM_COLUMNS=NO -s_srs EPSG:4326 -t_srs EPSG:{epsg} projected.csv \
+             {label}"
         ),
     }
 }

@@ -182,7 +182,7 @@ impl Rings<'_> {
             if !inside {
                 defects.push("hole-outside", || Defect {
                     code: "hole-outside",
-                    what: format!("a hole of polygon `{}` lies outside its outer ring", chain.name),
+                    what: format!("a hole of polygon `{}` lies outside its outer ring", self.chains[outer].name),
                     at: self.locators[hole].line(chain.places[0].feature),
                     figures: Some(format!("at x {}, y {}", show(chain.vertices[0].x), show(chain.vertices[0].y))),
                     help: "move the hole inside, or make it a polygon of its own".into(),
