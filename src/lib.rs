@@ -5,6 +5,8 @@
 
 pub mod kernel;
 pub mod model;
+pub mod read;
 pub mod report;
 pub mod sheet;
+pub mod validate;
 pub mod write;
