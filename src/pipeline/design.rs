@@ -1,0 +1,324 @@
+//! What is wanted and the line together: the design, or why they do not fit.
+
+use crate::model::{Design, Extent, Line, Note, Role, Sheet, Side, Slope};
+
+/// How far beyond the lowest (highest) vertex a slope goes for which no end was given, in the length unit.
+pub const DEFAULT_REACH: f64 = 10.0;
+
+/// Most level curves of one surface. A mesh has vertices on each of them all the way round: more than this is a slip of the
+/// keyboard, and would fill the memory before anyone can look at it.
+pub const MOST_LEVELS: f64 = 10_000.0;
+
+/// Furthest a slope may reach in plan, in the length unit: beyond it the line is a dot, and coordinates lose their digits.
+pub const FURTHEST_REACH: f64 = 1e7;
+
+/// What is wanted, before the line is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wishes {
+    /// The side slope.
+    pub slope: Slope,
+    /// Falling or rising.
+    pub sheet: Sheet,
+    /// On which side; `None`: both sides of lines, outside of rings.
+    pub side: Option<Side>,
+    /// Where the slope ends; `None`: [`DEFAULT_REACH`] beyond the line.
+    pub extent: Option<Extent>,
+    /// Spacing of the level curves; positive.
+    pub interval: Option<f64>,
+    /// Bound for the height error; positive.
+    pub tolerance: f64,
+}
+
+/// Why a line and what is wanted do not go together.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DesignError {
+    /// The slope would end before it begins.
+    #[error(
+        "the slope would end before it begins\n  --> {label}\n   = {}; `--to-elevation` {end}\n   = help: {}",
+        line_against(*.sheet, *.nearest), beyond(*.sheet, *.nearest)
+    )]
+    WrongSide {
+        /// The input.
+        label: String,
+        /// Which sheet.
+        sheet: Sheet,
+        /// Highest (lowest, for the rising sheet) elevation of the line.
+        nearest: f64,
+        /// The end asked for.
+        end: f64,
+    },
+    /// Inside or outside of something that is no ring.
+    #[error(
+        "`--side {side}` needs rings, and `{chain}` is open\n  --> {at}\n   \
+         = help: ask for `left`, `right` or `both`, or close the line with `--closed`"
+    )]
+    OpenLine {
+        /// `inside` or `outside`.
+        side: &'static str,
+        /// The first open chain.
+        chain: String,
+        /// Where it stands.
+        at: String,
+    },
+    /// More level curves than [`MOST_LEVELS`].
+    #[error(
+        "an interval of {interval} gives too many level curves\n  --> {label}\n   = {height} from the highest to the lowest; at \
+         most {MOST_LEVELS} level curves\n   = help: give `--interval {smallest}` or more"
+    )]
+    TooManyLevels {
+        /// The input.
+        label: String,
+        /// The interval asked for.
+        interval: f64,
+        /// Height between the highest and the lowest point of the surface.
+        height: f64,
+        /// Smallest interval that is accepted.
+        smallest: f64,
+    },
+    /// Further than [`FURTHEST_REACH`].
+    #[error(
+        "the slope would reach too far\n  --> {label}\n   = {reach:.0} in plan, against a limit of {FURTHEST_REACH:.0}\n   \
+         = help: end it sooner, or ask for a steeper slope"
+    )]
+    TooFar {
+        /// The input.
+        label: String,
+        /// Plan distance.
+        reach: f64,
+    },
+}
+
+fn line_against(sheet: Sheet, nearest: f64) -> String {
+    match sheet {
+        Sheet::Falling => format!("highest vertex at {nearest}"),
+        Sheet::Rising => format!("lowest vertex at {nearest}"),
+    }
+}
+
+fn beyond(sheet: Sheet, nearest: f64) -> String {
+    match sheet {
+        Sheet::Falling => format!("a falling slope ends below {nearest}; for one that rises give `--direction up`"),
+        Sheet::Rising => format!("a rising slope ends above {nearest}; for one that falls give `--direction down`"),
+    }
+}
+
+impl Wishes {
+    /// The design for a line; `label` names the input. What was chosen for the caller goes to `notes`.
+    ///
+    /// # Errors
+    /// [`DesignError`] when the line and what is wanted do not go together.
+    pub fn settle(&self, line: &Line, label: &str, notes: &mut Vec<Note>) -> Result<Design, DesignError> {
+        let (side_of_lines, side_of_rings) = self.sides(line, label)?;
+        let (z_min, z_max) = line.elevation_range();
+        let extent = self.extent.unwrap_or_else(|| {
+            let end = match self.sheet {
+                Sheet::Falling => millimetres(z_min - DEFAULT_REACH),
+                Sheet::Rising => millimetres(z_max + DEFAULT_REACH),
+            };
+            notes.push(Note::new(
+                "default-end",
+                format!(
+                    "the slopes end at elevation {end}, {DEFAULT_REACH} beyond the line: give `--to-elevation`, `--height` or \
+                     `--distance` for another end"
+                ),
+            ));
+            Extent::Elevation(end)
+        });
+        let k = self.slope.ratio();
+        let relief = z_max - z_min;
+        // Height of the whole surface, and its greatest height over one foot.
+        let (height, deepest) = match (extent, self.sheet) {
+            (Extent::Elevation(end), Sheet::Falling) => (z_max - end, z_max - end),
+            (Extent::Elevation(end), Sheet::Rising) => (end - z_min, end - z_min),
+            (Extent::Height(height), _) => (relief + height, height),
+            (Extent::Distance(distance), _) => (relief + k * distance, k * distance),
+        };
+        if let Extent::Elevation(end) = extent {
+            self.check_end(line, label, end, notes)?;
+        }
+        // Along the ruling, which is the shortest way: no ruling is longer in plan.
+        let reach = deepest / k;
+        if reach > FURTHEST_REACH {
+            return Err(DesignError::TooFar { label: label.to_owned(), reach });
+        }
+        if let Some(interval) = self.interval.filter(|interval| height / interval > MOST_LEVELS) {
+            let smallest = smallest_interval(height);
+            return Err(DesignError::TooManyLevels { label: label.to_owned(), interval, height: millimetres(height), smallest });
+        }
+        Ok(Design {
+            slope: self.slope,
+            sheet: self.sheet,
+            side_of_lines,
+            side_of_rings,
+            extent,
+            interval: self.interval,
+            tolerance: self.tolerance,
+        })
+    }
+
+    /// Sides for open lines and for rings.
+    fn sides(&self, line: &Line, label: &str) -> Result<(Side, Side), DesignError> {
+        let Some(side) = self.side else { return Ok((Side::Both, Side::Outside)) };
+        let name = match side {
+            Side::Left | Side::Right | Side::Both => return Ok((side, side)),
+            Side::Inside => "inside",
+            Side::Outside => "outside",
+        };
+        match line.chains.iter().find(|chain| chain.role == Role::Open) {
+            None => Ok((Side::Both, side)),
+            Some(open) => {
+                let feature = open.places.first().and_then(|place| place.feature);
+                let at = feature.map_or_else(|| label.to_owned(), |feature| format!("{label}, feature {feature}"));
+                Err(DesignError::OpenLine { side: name, chain: open.name.clone(), at })
+            }
+        }
+    }
+
+    /// An end at an elevation must leave something of the slope.
+    fn check_end(&self, line: &Line, label: &str, end: f64, notes: &mut Vec<Note>) -> Result<(), DesignError> {
+        let (z_min, z_max) = line.elevation_range();
+        let (nearest, before) = match self.sheet {
+            Sheet::Falling => (z_max, end < z_max),
+            Sheet::Rising => (z_min, end > z_min),
+        };
+        if !before {
+            return Err(DesignError::WrongSide { label: label.to_owned(), sheet: self.sheet, nearest, end });
+        }
+        let vertices = line.chains.iter().flat_map(|chain| &chain.vertices);
+        let outside = match self.sheet {
+            Sheet::Falling => vertices.filter(|v| v.z < end).count(),
+            Sheet::Rising => vertices.filter(|v| v.z > end).count(),
+        };
+        if outside > 0 {
+            notes.push(Note::new(
+                "line-beyond-end",
+                format!(
+                    "{outside} of {} vertices lie beyond elevation {end}, where the slopes end: there is no slope there",
+                    line.vertex_count()
+                ),
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// A length without the digits that subtraction leaves behind.
+fn millimetres(value: f64) -> f64 {
+    /// Per length unit.
+    const MILLI: f64 = 1000.0;
+    // Large values have no thousandths to round to.
+    let rounded = (value * MILLI).round() / MILLI;
+    if (rounded - value).abs() <= 1.0 / MILLI { rounded } else { value }
+}
+
+/// The smallest interval of two digits that gives no more than [`MOST_LEVELS`] level curves over a height.
+fn smallest_interval(height: f64) -> f64 {
+    let least = height / MOST_LEVELS;
+    let exponent = least.log10().floor() as i32 - 1;
+    // Through the decimal text, so that the suggestion is a number of two digits.
+    let mut digits = (least / 10_f64.powi(exponent)).ceil();
+    loop {
+        let interval: f64 = format!("{digits}e{exponent}").parse().unwrap_or(least * 2.0);
+        if height / interval <= MOST_LEVELS || digits > 1000.0 {
+            return interval;
+        }
+        digits += 1.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Chain, Place};
+    use glam::DVec3;
+
+    fn line(role: Role) -> Line {
+        let vertices = vec![DVec3::new(0.0, 0.0, 400.0), DVec3::new(50.0, 0.0, 402.3), DVec3::new(50.0, 50.0, 401.0)];
+        let places = vec![Place { feature: Some(3), vertex: 1, row: None }; 3];
+        Line { chains: vec![Chain { name: "rim".into(), role, vertices, places }] }
+    }
+
+    const OPEN: Role = Role::Open;
+    const RING: Role = Role::Outer { polygon: 0 };
+
+    fn wishes() -> Wishes {
+        let slope = Slope::from_ratio(0.5).unwrap();
+        Wishes { slope, sheet: Sheet::Falling, side: None, extent: None, interval: None, tolerance: 0.01 }
+    }
+
+    #[test]
+    fn what_is_not_said_is_chosen() {
+        let mut notes = Vec::new();
+        let design = wishes().settle(&line(OPEN), "a.csv", &mut notes).unwrap();
+        assert_eq!((design.side_of_lines, design.side_of_rings), (Side::Both, Side::Outside));
+        assert_eq!(design.extent, Extent::Elevation(390.0));
+        assert_eq!(notes.len(), 1);
+        assert_eq!(notes[0].code, "default-end");
+        let rising = Wishes { sheet: Sheet::Rising, ..wishes() };
+        // 402.3 + 10, as typed and not as added.
+        assert_eq!(rising.settle(&line(OPEN), "a.csv", &mut notes).unwrap().extent, Extent::Elevation(412.3));
+    }
+
+    #[test]
+    fn sides() {
+        let of = |side, role| {
+            let wishes = Wishes { side: Some(side), ..wishes() };
+            wishes.settle(&line(role), "a.json", &mut Vec::new()).map(|d| (d.side_of_lines, d.side_of_rings))
+        };
+        assert_eq!(of(Side::Left, RING), Ok((Side::Left, Side::Left)));
+        assert_eq!(of(Side::Both, OPEN), Ok((Side::Both, Side::Both)));
+        assert_eq!(of(Side::Inside, RING), Ok((Side::Both, Side::Inside)));
+        assert_eq!(
+            of(Side::Inside, OPEN).unwrap_err().to_string(),
+            "`--side inside` needs rings, and `rim` is open\n  --> a.json, feature 3\n   \
+             = help: ask for `left`, `right` or `both`, or close the line with `--closed`"
+        );
+    }
+
+    #[test]
+    fn ends_on_the_wrong_side() {
+        let to = |sheet, end| {
+            let mut notes = Vec::new();
+            let wishes = Wishes { sheet, extent: Some(Extent::Elevation(end)), ..wishes() };
+            wishes.settle(&line(OPEN), "a.csv", &mut notes).map(|_| notes)
+        };
+        assert_eq!(
+            to(Sheet::Falling, 402.3).unwrap_err().to_string(),
+            "the slope would end before it begins\n  --> a.csv\n   = highest vertex at 402.3; `--to-elevation` 402.3\n   \
+             = help: a falling slope ends below 402.3; for one that rises give `--direction up`"
+        );
+        assert!(matches!(to(Sheet::Rising, 400.0), Err(DesignError::WrongSide { nearest: 400.0, .. })));
+        // One of three vertices (400) is below 400.5, two of three are above.
+        assert!(to(Sheet::Falling, 400.5).unwrap()[0].message.starts_with("1 of 3 "));
+        assert!(to(Sheet::Rising, 400.5).unwrap()[0].message.starts_with("2 of 3 "));
+        assert_eq!(to(Sheet::Falling, 400.0).unwrap(), []);
+    }
+
+    #[test]
+    fn too_many_levels() {
+        // 12.3 high (402.3 to 390): at most 10 000 levels are 0.00123 apart or more.
+        let with = |interval| {
+            let wishes = Wishes { interval: Some(interval), extent: Some(Extent::Elevation(390.0)), ..wishes() };
+            wishes.settle(&line(OPEN), "a.csv", &mut Vec::new())
+        };
+        assert_eq!(
+            with(1e-9).unwrap_err().to_string(),
+            "an interval of 0.000000001 gives too many level curves\n  --> a.csv\n   = 12.3 from the highest to the lowest; at \
+             most 10000 level curves\n   = help: give `--interval 0.0013` or more"
+        );
+        assert!(with(0.0013).is_ok() && with(0.00122).is_err() && with(5e-324).is_err() && with(1e300).is_ok());
+        for height in [1e-3, 0.123, 1.0, 99_999.0, 1e5, 1e9, 3e9] {
+            let interval = smallest_interval(height);
+            assert!(height / interval <= MOST_LEVELS && interval <= height / MOST_LEVELS * 1.1 + 1e-300, "{height}: {interval}");
+        }
+    }
+
+    #[test]
+    fn too_far() {
+        // 1e8 along a slope of 1 in 2.
+        for extent in [Extent::Height(5e7), Extent::Distance(1e8), Extent::Elevation(402.3 - 5e7)] {
+            let error = Wishes { extent: Some(extent), ..wishes() }.settle(&line(OPEN), "a", &mut Vec::new()).unwrap_err();
+            assert!(error.to_string().contains("100000000 in plan, against a limit of 10000000"), "{error}");
+        }
+    }
+}

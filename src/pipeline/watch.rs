@@ -1,0 +1,78 @@
+//! Whoever looks on while a job runs.
+
+use crate::model::Note;
+use crate::slope::Watch;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Whoever looks on while a job runs: learns the stages, can stop the engine, gets the notes as soon as they are known.
+pub trait Observer: Watch {
+    /// Something worth knowing about the input or the result.
+    fn note(&self, note: &Note);
+}
+
+/// Passes everything on, and keeps the notes and how long each stage took.
+pub(super) struct Stopwatch<'a> {
+    observer: &'a dyn Observer,
+    begun: Instant,
+    record: Mutex<Record>,
+}
+
+#[derive(Default)]
+struct Record {
+    /// Stages in the order begun, each with its beginning.
+    stages: Vec<(&'static str, Instant)>,
+    notes: Vec<Note>,
+}
+
+impl<'a> Stopwatch<'a> {
+    pub(super) fn new(observer: &'a dyn Observer) -> Self {
+        Self { observer, begun: Instant::now(), record: Mutex::default() }
+    }
+
+    fn record(&self) -> MutexGuard<'_, Record> {
+        self.record.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A stage begins.
+    pub(super) fn stage_of(&self, name: &'static str) {
+        self.record().stages.push((name, Instant::now()));
+        self.observer.stage(name);
+    }
+
+    pub(super) fn note(&self, note: &Note) {
+        self.record().notes.push(note.clone());
+        self.observer.note(note);
+    }
+
+    /// All notes so far.
+    pub(super) fn notes(&self) -> Vec<Note> {
+        self.record().notes.clone()
+    }
+
+    /// Seconds since the start.
+    pub(super) fn total(&self) -> f64 {
+        self.begun.elapsed().as_secs_f64()
+    }
+
+    /// Seconds spent so far in the stages whose names `of` accepts.
+    pub(super) fn seconds(&self, of: impl Fn(&str) -> bool) -> f64 {
+        let now = Instant::now();
+        let record = self.record();
+        let ends = record.stages.iter().skip(1).map(|(_, at)| *at).chain([now]);
+        let spent = |((name, from), to): (&(&'static str, Instant), Instant)| {
+            if of(name) { to.saturating_duration_since(*from) } else { Duration::ZERO }
+        };
+        record.stages.iter().zip(ends).map(spent).sum::<Duration>().as_secs_f64()
+    }
+}
+
+impl Watch for Stopwatch<'_> {
+    fn stage(&self, name: &'static str) {
+        self.stage_of(name);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.observer.cancelled()
+    }
+}
