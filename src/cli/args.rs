@@ -91,19 +91,20 @@ pub(super) struct SampleArgs {
     #[arg(long, value_name = "POINTS", help_heading = help::PLACES)]
     pub(super) at: Option<PathBuf>,
     /// Columns of POINTS without a header, such as xy or pen
-    #[arg(long, value_name = "ORDER", requires = "at", help_heading = help::PLACES)]
+    #[arg(long, value_name = "ORDER", requires = "at", conflicts_with = "raster", help_heading = help::PLACES)]
     pub(super) at_order: Option<String>,
     /// Heights at the nodes of a grid, written as an ESRI ASCII raster (.asc); - is standard output
     #[arg(long, value_name = "FILE", requires = "cell", conflicts_with = "output", help_heading = help::PLACES)]
     pub(super) raster: Option<OsString>,
     /// Distance of the nodes of the grid
-    #[arg(long, value_name = "C", requires = "raster", allow_negative_numbers = true, help_heading = help::PLACES)]
+    #[arg(long, value_name = "C", requires = "raster", conflicts_with = "at", allow_negative_numbers = true, help_heading = help::PLACES)]
     pub(super) cell: Option<String>,
     /// Box of the grid [default: that of the line, grown by a tenth of its longer side or by 5 cells]
     #[arg(
         long = "box",
         value_name = "XMIN,YMIN,XMAX,YMAX",
         requires = "raster",
+        conflicts_with = "at",
         allow_hyphen_values = true,
         help_heading = help::PLACES
     )]

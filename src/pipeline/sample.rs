@@ -3,7 +3,7 @@
 use super::watch::{Observer, Stopwatch};
 use super::{Error, LineInput, check_steepness, read_line};
 use crate::model::{Defect, Defects, Line, Sheet, Slope};
-use crate::read::{self, RawPoints, ReadOptions};
+use crate::read::{self, RawPoints, ReadError, ReadOptions};
 use crate::sheet::{Grid, Heights};
 use crate::validate::INPUT_LIMIT;
 use crate::write::{Anchor, GridLayout, Outputs, Target, write_points, write_raster};
@@ -91,7 +91,7 @@ pub fn sample(job: &SampleJob, observer: &dyn Observer) -> Result<Sampled, Error
     check_steepness(&line, &source, job.slope)?;
     let heights = match &job.at {
         Where::Points { path, options } => {
-            let points = read::read_points(path, options)?;
+            let points = read::read_points(path, options).map_err(for_points)?;
             points.notes.iter().for_each(|note| watch.note(note));
             check_points(&points)?;
             let points: Vec<DVec2> = points.points.iter().map(|p| DVec2::new(p.x, p.y)).collect();
@@ -119,6 +119,16 @@ pub fn sample(job: &SampleJob, observer: &dyn Observer) -> Result<Sampled, Error
     };
     outputs.commit()?;
     Ok(Sampled { heights })
+}
+
+/// The reader's advice in the words of the points' own option.
+fn for_points(error: ReadError) -> ReadError {
+    match error {
+        ReadError::Content { what, at, figures, help } => {
+            ReadError::Content { what, at, figures, help: help.replace("--csv-order", "--at-order") }
+        }
+        other => other,
+    }
 }
 
 /// Points must be where coordinates of lines may be.
@@ -185,9 +195,9 @@ mod tests {
 
     #[test]
     fn the_default_box_has_a_margin_and_round_nodes() {
-        // 10 % of 100 is 10: from 993 and 1994 down to multiples of 4, from 1113 and 2064 up.
-        let grid = lattice(&line(), &Lattice { cell: 4.0, area: None }, "a").unwrap();
-        assert_eq!(grid, Grid { xll: 992.0, yll: 1992.0, cell: 4.0, ncols: 32, nrows: 19 });
+        // 10 % of 100 is 10: from 993 and 1994 down to multiples of 2, from 1113 and 2064 up.
+        let grid = lattice(&line(), &Lattice { cell: 2.0, area: None }, "a").unwrap();
+        assert_eq!(grid, Grid { xll: 992.0, yll: 1994.0, cell: 2.0, ncols: 62, nrows: 36 });
         // Five cells of 20 are more than 10 %.
         let grid = lattice(&line(), &Lattice { cell: 20.0, area: None }, "a").unwrap();
         assert_eq!((grid.xll, grid.yll, grid.ncols, grid.nrows), (900.0, 1900.0, 17, 14));
