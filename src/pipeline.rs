@@ -14,7 +14,7 @@ pub use certificate::{FailedCheck, failed_checks};
 pub use design::{DesignError, MOST_LEVELS, Wishes};
 pub use error::{BuriedError, Error};
 pub use sample::{Area, Lattice, MOST_NODES, SampleJob, Sampled, Where, lattice, sample};
-pub use watch::Observer;
+pub use watch::{Observer, WRITING};
 
 use crate::model::{Line, Slope};
 use crate::read::{self, ReadOptions, Source};
@@ -34,10 +34,10 @@ pub struct LineInput {
 
 /// Reads and checks a line; what is worth knowing goes to `observer`.
 fn read_line(input: &LineInput, observer: &watch::Stopwatch<'_>) -> Result<(Line, Source), Error> {
-    observer.stage_of("read");
+    observer.stage_of(watch::READING);
     let raw = read::read_line(&input.path, &input.options)?;
     raw.notes.iter().for_each(|note| observer.note(note));
-    observer.stage_of("check");
+    observer.stage_of(watch::CHECKING);
     let checked = validate::check(&raw, &validate::Options { closed: input.closed })?;
     checked.notes.iter().for_each(|note| observer.note(note));
     Ok((checked.line, raw.source))

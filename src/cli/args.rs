@@ -139,13 +139,13 @@ pub(super) struct InputArgs {
 #[derive(Debug, Args)]
 pub(super) struct SlopeArgs {
     /// The side slope: 1:1.5, 2H:1V, 1in2, 50% or 26.57deg
-    #[arg(short, long, value_name = "S", allow_negative_numbers = true, help_heading = help::SURFACE)]
+    #[arg(short, long, value_name = "S", allow_hyphen_values = true, help_heading = help::SURFACE)]
     pub(super) slope: Option<String>,
     /// Slope of surfaces that rise from the line, instead of --slope
-    #[arg(long, value_name = "S", allow_negative_numbers = true, help_heading = help::SURFACE)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = help::SURFACE)]
     pub(super) cut_slope: Option<String>,
     /// Slope of surfaces that fall from the line, instead of --slope
-    #[arg(long, value_name = "S", allow_negative_numbers = true, help_heading = help::SURFACE)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = help::SURFACE)]
     pub(super) fill_slope: Option<String>,
     /// Whether the surface falls from the line (fill) or rises (cut)
     #[arg(long, value_enum, default_value = "down", help_heading = help::SURFACE)]

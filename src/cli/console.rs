@@ -2,7 +2,7 @@
 
 use super::args::Running;
 use crate::model::Note;
-use crate::pipeline::Observer;
+use crate::pipeline::{Observer, WRITING};
 use crate::slope::Watch;
 use crate::write::Target;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -109,7 +109,12 @@ impl Watch for Console {
     fn stage(&self, name: &'static str) {
         self.end_stage(Some(name));
         if let Some(bar) = &self.progress {
-            bar.set_message(name);
+            // What goes to standard output would mix with the display on the same screen.
+            if name == WRITING && std::io::stdout().is_terminal() {
+                bar.finish_and_clear();
+            } else {
+                bar.set_message(name);
+            }
         }
     }
 }

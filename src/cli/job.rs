@@ -12,11 +12,8 @@ use std::ffi::{OsStr, OsString};
 use std::fmt;
 use std::path::Path;
 
-/// The smallest tolerance: what coordinates of lines are told apart by.
-const LEAST_TOLERANCE: f64 = crate::validate::MERGE_DISTANCE;
-
-/// The smallest cell: nodes closer than coordinates of lines can be are one.
-const LEAST_CELL: f64 = crate::validate::MERGE_DISTANCE;
+/// The smallest tolerance, height, distance and cell: what coordinates of lines are told apart by.
+const LEAST_LENGTH: f64 = crate::validate::MERGE_DISTANCE;
 
 /// More threads than any machine this runs on has processors.
 const MOST_THREADS: usize = 1024;
@@ -114,11 +111,11 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     let slope = checks.slopes(&args.slope);
     let extent = [
         checks.number("--to-elevation", args.to_elevation.as_ref(), Rule::Coordinate).map(Extent::Elevation),
-        checks.number("--height", args.height.as_ref(), Rule::Positive).map(Extent::Height),
-        checks.number("--distance", args.distance.as_ref(), Rule::Positive).map(Extent::Distance),
+        checks.number("--height", args.height.as_ref(), Rule::AtLeast(LEAST_LENGTH)).map(Extent::Height),
+        checks.number("--distance", args.distance.as_ref(), Rule::AtLeast(LEAST_LENGTH)).map(Extent::Distance),
     ];
     let interval = checks.number("--interval", args.interval.as_ref(), Rule::Positive);
-    let tolerance = checks.number("--tolerance", Some(&args.tolerance), Rule::AtLeast(LEAST_TOLERANCE));
+    let tolerance = checks.number("--tolerance", Some(&args.tolerance), Rule::AtLeast(LEAST_LENGTH));
     let reference = checks.number("--reference", args.reference.as_ref(), Rule::Coordinate);
     let side = args.side.map(|side| match side {
         SideArg::Left => Side::Left,
@@ -182,7 +179,7 @@ pub(super) fn sample_job(args: &SampleArgs) -> Result<SampleJob, UsageErrors> {
         (None, Some(raster)) => {
             let output = Target::from_arg(raster);
             checks.format(ending(&output, "raster", &["asc"], "`.asc`"));
-            let cell = checks.number("--cell", args.cell.as_ref(), Rule::AtLeast(LEAST_CELL));
+            let cell = checks.number("--cell", args.cell.as_ref(), Rule::AtLeast(LEAST_LENGTH));
             let area = args.area.as_ref().map(|text| checks.take(area(text)));
             match (cell, area) {
                 (Some(cell), None) => Some((Where::Raster(Lattice { cell, area: None }), output)),

@@ -1,6 +1,6 @@
 //! The main job: a line to a surface, its files and its report.
 
-use super::watch::{Observer, Stopwatch};
+use super::watch::{CHECKING, Observer, READING, Stopwatch, WRITING};
 use super::{BuriedError, Error, LineInput, Wishes, certificate, check_steepness, figures, read_line};
 use crate::report::{Report, ReportFormat};
 use crate::slope;
@@ -71,7 +71,7 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     }
     let mut report = figures::report(&line, &source, &design, &surface, &watch.notes());
 
-    watch.stage_of("write");
+    watch.stage_of(WRITING);
     let crs = source.crs.as_deref();
     let mut put = |index: usize, report: &Report| -> Result<Delivery, WriteError> {
         outputs.write(index, |out| match contents[index] {
@@ -112,12 +112,14 @@ fn in_order(targets: &[Target], contents: &[Content]) -> Vec<usize> {
 
 /// Writes the times into the report.
 fn stamp(report: &mut Report, watch: &Stopwatch<'_>) {
-    /// What comes before and after the engine; whatever other stages there are, are the engine's.
-    const AROUND: [&str; 4] = ["read", "check", "volumes", "write"];
+    /// The engine's stage of areas and volumes.
+    const VOLUMES: &str = "volumes";
+    /// All but the surface itself; whatever other stages there are, are its own.
+    const AROUND: [&str; 4] = [READING, CHECKING, VOLUMES, WRITING];
     let timing = &mut report.timing;
-    timing.read = watch.seconds(|stage| stage == "read" || stage == "check");
+    timing.read = watch.seconds(|stage| stage == READING || stage == CHECKING);
     timing.surface = watch.seconds(|stage| !AROUND.contains(&stage));
-    timing.volume = watch.seconds(|stage| stage == "volumes");
-    timing.write = watch.seconds(|stage| stage == "write");
+    timing.volume = watch.seconds(|stage| stage == VOLUMES);
+    timing.write = watch.seconds(|stage| stage == WRITING);
     timing.total = watch.total();
 }

@@ -9,8 +9,15 @@ pub const DEFAULT_REACH: f64 = 10.0;
 /// keyboard, and would fill the memory before anyone can look at it.
 pub const MOST_LEVELS: f64 = 10_000.0;
 
-/// Furthest a slope may reach in plan, in the length unit: beyond it the line is a dot, and coordinates lose their digits.
+/// Furthest a slope may reach, in plan and in height, in the length unit: beyond it the line is a dot, and coordinates lose
+/// their digits.
 pub const FURTHEST_REACH: f64 = 1e7;
+
+/// Most points that the arcs of level curves round a single corner or end may come to, all of them together.
+pub const MOST_ARC_POINTS: f64 = 2e7;
+
+/// Level curves to reckon with where no interval is given: the most that the engine chooses.
+const CHOSEN_LEVELS: f64 = 25.0;
 
 /// What is wanted, before the line is known.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,14 +84,29 @@ pub enum DesignError {
     },
     /// Further than [`FURTHEST_REACH`].
     #[error(
-        "the slope would reach too far\n  --> {label}\n   = {reach:.0} in plan, against a limit of {FURTHEST_REACH:.0}\n   \
-         = help: end it sooner, or ask for a steeper slope"
+        "the slope would reach too far\n  --> {label}\n   = {reach:.0} in plan and {height:.0} in height, against a limit of \
+         {FURTHEST_REACH:.0}\n   = help: end it sooner"
     )]
     TooFar {
         /// The input.
         label: String,
         /// Plan distance.
         reach: f64,
+        /// Height.
+        height: f64,
+    },
+    /// More than [`MOST_ARC_POINTS`].
+    #[error(
+        "the surface would have too many points\n  --> {label}\n   = about {points:.0e} round a single corner, against a limit of \
+         {MOST_ARC_POINTS:.0e}\n   = help: raise `--tolerance` ({tolerance}) or `--interval`, or end the slope sooner"
+    )]
+    TooFine {
+        /// The input.
+        label: String,
+        /// Points expected.
+        points: f64,
+        /// The tolerance asked for.
+        tolerance: f64,
     },
 }
 
@@ -138,12 +160,17 @@ impl Wishes {
         }
         // Along the ruling, which is the shortest way: no ruling is longer in plan.
         let reach = deepest / k;
-        if reach > FURTHEST_REACH {
-            return Err(DesignError::TooFar { label: label.to_owned(), reach });
+        if reach.max(deepest) > FURTHEST_REACH {
+            return Err(DesignError::TooFar { label: label.to_owned(), reach, height: deepest });
         }
         if let Some(interval) = self.interval.filter(|interval| height / interval > MOST_LEVELS) {
             let smallest = smallest_interval(height);
             return Err(DesignError::TooManyLevels { label: label.to_owned(), interval, height: millimetres(height), smallest });
+        }
+        let levels = self.interval.map_or(CHOSEN_LEVELS, |interval| height / interval);
+        let points = levels * arc_points(deepest, self.tolerance);
+        if points > MOST_ARC_POINTS {
+            return Err(DesignError::TooFine { label: label.to_owned(), points, tolerance: self.tolerance });
         }
         Ok(Design {
             slope: self.slope,
@@ -200,6 +227,12 @@ impl Wishes {
         }
         Ok(())
     }
+}
+
+/// Points of the outermost level curve round an open end, half a turn. A chord over the angle `w` of a cone lies `h w²/8` off it in
+/// height, `h` below its top; a third of the tolerance is spent on that.
+fn arc_points(deepest: f64, tolerance: f64) -> f64 {
+    std::f64::consts::PI / (8.0 * tolerance / (3.0 * deepest)).sqrt()
 }
 
 /// A length without the digits that subtraction leaves behind.
@@ -318,7 +351,29 @@ mod tests {
         // 1e8 along a slope of 1 in 2.
         for extent in [Extent::Height(5e7), Extent::Distance(1e8), Extent::Elevation(402.3 - 5e7)] {
             let error = Wishes { extent: Some(extent), ..wishes() }.settle(&line(OPEN), "a", &mut Vec::new()).unwrap_err();
-            assert!(error.to_string().contains("100000000 in plan, against a limit of 10000000"), "{error}");
+            assert!(
+                error.to_string().contains("100000000 in plan and 50000000 in height, against a limit of 10000000"),
+                "{error}"
+            );
         }
+        // Steep: near in plan, but deep.
+        let steep = Wishes { slope: Slope::from_ratio(1e4).unwrap(), extent: Some(Extent::Distance(1e4)), ..wishes() };
+        assert!(matches!(steep.settle(&line(OPEN), "a", &mut Vec::new()), Err(DesignError::TooFar { .. })));
+    }
+
+    #[test]
+    fn too_fine() {
+        let with = |tolerance, interval, height| {
+            let wishes = Wishes { tolerance, interval, extent: Some(Extent::Height(height)), ..wishes() };
+            wishes.settle(&line(OPEN), "a.csv", &mut Vec::new()).map(drop)
+        };
+        assert_eq!(with(1e-6, None, 10.0), Ok(()));
+        assert_eq!(with(0.01, Some(0.01), 90.0), Ok(()));
+        // π √(3 · 1e6 / (8 · 1e-6)) = 1.9e6 points on each of 25 level curves.
+        assert_eq!(
+            with(1e-6, None, 1e6).unwrap_err().to_string(),
+            "the surface would have too many points\n  --> a.csv\n   = about 5e7 round a single corner, against a limit of 2e7\n   \
+             = help: raise `--tolerance` (0.000001) or `--interval`, or end the slope sooner"
+        );
     }
 }

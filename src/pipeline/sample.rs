@@ -1,6 +1,6 @@
 //! Exact heights of the sheet of the given line, at points or on a grid.
 
-use super::watch::{Observer, Stopwatch};
+use super::watch::{Observer, Stopwatch, WRITING};
 use super::{Error, LineInput, check_steepness, read_line};
 use crate::model::{Defect, Defects, Line, Sheet, Slope};
 use crate::read::{self, RawPoints, ReadError, ReadOptions};
@@ -99,7 +99,7 @@ pub fn sample(job: &SampleJob, observer: &dyn Observer) -> Result<Sampled, Error
             let sheet = Heights::new(&line, job.slope, job.sheet);
             watch.stage_of("heights");
             let heights = sheet.many(&points);
-            watch.stage_of("write");
+            watch.stage_of(WRITING);
             let rows = points.iter().zip(&heights).map(|(p, &z)| p.extend(z));
             outputs.write(0, |out| write_points(out, rows))?;
             heights.len()
@@ -110,7 +110,7 @@ pub fn sample(job: &SampleJob, observer: &dyn Observer) -> Result<Sampled, Error
             let sheet = Heights::new(&line, job.slope, job.sheet);
             watch.stage_of("heights");
             let heights = sheet.raster(&grid);
-            watch.stage_of("write");
+            watch.stage_of(WRITING);
             let Grid { xll: x, yll: y, cell, ncols: columns, nrows: rows } = grid;
             let layout = GridLayout { columns, rows, x, y, anchor: Anchor::Center, cell };
             outputs.write(0, |out| write_raster(out, &layout, &heights))?;

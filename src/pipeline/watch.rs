@@ -5,6 +5,13 @@ use crate::slope::Watch;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+/// Stage in which inputs are read.
+pub(super) const READING: &str = "read";
+/// Stage in which they are checked.
+pub(super) const CHECKING: &str = "check";
+/// Last stage, in which outputs are written.
+pub const WRITING: &str = "write";
+
 /// Whoever looks on while a job runs: learns the stages, can stop the engine, gets the notes as soon as they are known.
 pub trait Observer: Watch {
     /// Something worth knowing about the input or the result.

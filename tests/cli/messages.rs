@@ -24,6 +24,12 @@ fn slopes() {
          = help: give the steepness; `--direction` says whether it falls or rises",
     );
     refused(
+        "build road.geojson --slope -1:2",
+        2,
+        "error: `-1:2` is not a positive slope\n  --> --slope -1:2\n   \
+         = help: give the steepness; `--direction` says whether it falls or rises",
+    );
+    refused(
         "build road.geojson --slope 90deg",
         2,
         "error: `90deg` is not less than a right angle\n  --> --slope 90deg\n   \
@@ -91,8 +97,8 @@ fn what_the_line_forbids() {
     refused(
         "build road.geojson --slope 1:10000 --height 2000",
         1,
-        "error: the slope would reach too far\n  --> road.geojson\n   = 20000000 in plan, against a limit of 10000000\n   \
-         = help: end it sooner, or ask for a steeper slope",
+        "error: the slope would reach too far\n  --> road.geojson\n   = 20000000 in plan and 2000 in height, against a limit of \
+         10000000\n   = help: end it sooner",
     );
 }
 
