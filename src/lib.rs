@@ -7,4 +7,5 @@ pub mod kernel;
 pub mod model;
 pub mod report;
 pub mod sheet;
+pub mod slope;
 pub mod write;
