@@ -400,8 +400,9 @@ impl<'a> State<'a> {
             let (tau, _) = self.sheet.facet(f).parameters(self.vertices[vertex as usize].truncate());
             return Between::Vertex { tau: tau.clamp(a.tau, b.tau), left: ka, right: kb, vertex };
         }
-        let tau = self.root(f, ka, kb, a.tau, b.tau);
-        if width > 0.0 {
+        let root = self.root(f, ka, kb, a.tau, b.tau);
+        let tau = root.unwrap_or(0.5 * (a.tau + b.tau));
+        if width > 0.0 && root.is_some() {
             let x = self.polish(f, ka, kb, tau);
             let plan = x.to_f64();
             let (exact_tau, _) = self.sheet.facet(f).parameters(plan);
@@ -458,8 +459,12 @@ impl<'a> State<'a> {
             return None;
         }
         let facet = self.sheet.facet(k);
-        let (tau, _) = facet.parameters(x);
+        let (tau, r) = facet.parameters(x);
         let limit = 1e-9 * (1.0 + facet.tau_max);
+        if r < -limit {
+            // The plane of a strip goes on behind its edge, the strip does not.
+            return Some((k, None));
+        }
         let end = if tau < -limit {
             0
         } else if tau > facet.tau_max + limit {
@@ -512,7 +517,7 @@ impl<'a> State<'a> {
     }
 
     /// Parameter between `lo` and `hi` at which `f` meets `ka` (nearer at `lo`) and `kb` (nearer at `hi`) at once.
-    fn root(&self, f: FacetId, ka: FacetId, kb: FacetId, lo: f64, hi: f64) -> f64 {
+    fn root(&self, f: FacetId, ka: FacetId, kb: FacetId, lo: f64, hi: f64) -> Option<f64> {
         let hidden = twin_strip(self.sheet, f);
         let strip = self.sheet.facet(f).is_strip();
         let excess = |tau: f64| {
@@ -562,13 +567,16 @@ impl<'a> State<'a> {
     }
 }
 
-/// A zero of `f` between `lo`, where it should not be positive, and `hi`, where it should not be negative. Without a change
-/// of sign, the end where it is smaller. Bisection safeguarded Illinois steps; ends when the bracket cannot shrink.
-fn bracket(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> f64 {
+/// A zero of `f` between `lo`, where it must not be positive, and `hi`, where it must not be negative; `None` without that
+/// change of sign. Illinois steps with bisection every fourth; ends when the bracket cannot shrink.
+fn bracket(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> Option<f64> {
     const STEPS: usize = 100;
     let (mut at_lo, mut at_hi) = (f(lo), f(hi));
-    if at_lo >= 0.0 || at_hi <= 0.0 {
-        return if at_lo.abs() <= at_hi.abs() { lo } else { hi };
+    if at_lo > 0.0 || at_hi < 0.0 {
+        return None;
+    }
+    if at_lo == 0.0 || at_hi == 0.0 {
+        return Some(if at_lo == 0.0 { lo } else { hi });
     }
     let width = hi - lo;
     let mut last_side = 0;
@@ -582,7 +590,7 @@ fn bracket(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> f64 {
         }
         let value = f(mid);
         if value == 0.0 {
-            return mid;
+            return Some(mid);
         }
         if value < 0.0 {
             (lo, at_lo) = (mid, value);
@@ -598,6 +606,6 @@ fn bracket(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> f64 {
             last_side = 1;
         }
     }
-    0.5 * (lo + hi)
+    Some(0.5 * (lo + hi))
 }
 
