@@ -122,13 +122,18 @@ fn read_crs(foreign: Option<&JsonObject>, source: &mut Source) {
 /// newer geographic systems, which hold geographic systems (and a few geocentric ones, no plan coordinates either).
 fn is_geographic(name: &str) -> bool {
     const NEWER: [u32; 12] = [6318, 6319, 6322, 6325, 6783, 7843, 7844, 8237, 8246, 8860, 9000, 10414];
+    const SHORTEST_CODE: usize = 4;
     let upper = name.to_ascii_uppercase();
-    if ["CRS84", "CRS83", "CRS27", "WGS84", "WGS 84"].iter().any(|known| upper.ends_with(known)) || upper.contains("CRS84") {
+    if ["CRS84", "CRS83", "CRS27"].iter().any(|known| upper.contains(known)) || upper.starts_with("GCS_") {
         return true;
     }
-    let digits: String = upper.chars().rev().skip_while(|c| !c.is_ascii_digit()).take_while(char::is_ascii_digit).collect();
-    let code = digits.chars().rev().collect::<String>().parse::<u32>();
-    upper.contains("EPSG") && code.is_ok_and(|code| (4001..=4999).contains(&code) || NEWER.contains(&code))
+    if ["WGS84", "WGS 84", "WGS1984"].contains(&upper.trim()) {
+        return true;
+    }
+    // The first code: a second one is the vertical part. Shorter numbers are versions.
+    let code = upper.split(|c: char| !c.is_ascii_digit()).find(|digits| digits.len() >= SHORTEST_CODE);
+    let code = code.and_then(|digits| digits.parse::<u32>().ok());
+    upper.contains("EPSG") && code.is_some_and(|code| (4001..=4999).contains(&code) || NEWER.contains(&code))
 }
 
 /// Turns geometries into raw lines, counting what it passes over.
@@ -244,4 +249,28 @@ fn name(feature: &Feature) -> Option<String> {
         None => None,
     };
     property("name").or_else(|| property("Name")).or_else(id).or_else(|| property("id"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reference_systems_in_degrees() {
+        for name in [
+            "urn:ogc:def:crs:OGC:1.3:CRS84",
+            "urn:ogc:def:crs:EPSG::4326",
+            "urn:ogc:def:crs:EPSG:9.8.15:4258",
+            "EPSG:4326",
+            "EPSG:4326+5773",
+            "[OGC:CRS84]",
+            "http://www.opengis.net/def/crs/EPSG/0/7844",
+            "WGS 84",
+        ] {
+            assert!(is_geographic(name), "{name}");
+        }
+        for name in ["urn:ogc:def:crs:EPSG::25832", "EPSG:2193+4440", "WGS 84 / UTM zone 32N", "EPSG:31467", "local", ""] {
+            assert!(!is_geographic(name), "{name}");
+        }
+    }
 }
