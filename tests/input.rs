@@ -106,7 +106,7 @@ fn notes_tell_what_was_done() {
     assert_eq!(
         notes("null_and_points.geojson"),
         [
-            "null-geometry: features without geometry passed over: 1",
+            "null-geometry: features and parts without geometry passed over: 1",
             "points-ignored: points passed over: 1 (only lines are used)"
         ]
     );
@@ -192,6 +192,47 @@ fn orders_name_the_columns() {
 }
 
 #[test]
+fn sloppy_geojson_is_read() {
+    let geometry = "{\"type\":\"LineString\",\"bbox\":[1,2,7,8],\"coordinates\":[[1,2,3],[7,8,100000000000e-10]]}";
+    for document in [
+        format!("{{\"type\":\"Feature\",\"geometry\":{geometry}}}"),
+        format!("{{\"geometry\":{geometry},\"type\":\"Feature\",\"properties\":null,\"id\":7,\"extra\":{{}}}}"),
+        format!(
+            "{{\"features\":[{{\"type\":\"Feature\",\"properties\":{{}},\"geometry\":{geometry}}}],\"type\":\"FeatureCollection\"}}"
+        ),
+        geometry.replace("{\"type\":\"LineString\",", "{").replace("]}", "],\"type\":\"LineString\"}"),
+    ] {
+        let (line, _) = text(&document, None).unwrap_or_else(|e| panic!("{document}: {e}"));
+        assert_eq!(coordinates(&line), [vec![[1., 2., 3.], [7., 8., 10.]]]);
+    }
+    for (document, message) in [
+        ("{\"type\":\"LineString\"}", "the document is not valid GeoJSON"),
+        ("{\"type\":\"LineString\",\"coordinates\":[]}", "the file holds no line"),
+        ("{\"type\":\"LineString\",\"coordinates\":[1,2,3]}", "a position is not an array of numbers"),
+        ("{\"type\":\"Polygon\",\"coordinates\":[[]]}", "the file holds no line"),
+        ("{\"type\":\"Polygon\",\"coordinates\":[]}", "the file holds no line"),
+        ("{\"type\":\"Polygon\",\"coordinates\":[[],[[0,0,1],[9,0,1],[9,9,1]]]}", "a ring needs at least 3 distinct vertices"),
+        (
+            "{\"type\":\"Feature\",\"coordRefSys\":\"[EPSG:25832]\",\"properties\":{},\"geometry\":null,\"place\":{\"type\":\"Prism\"}}",
+            "the member `place` is no geometry known here",
+        ),
+        (
+            "{\"type\":\"Feature\",\"coordRefSys\":\"[EPSG:25832]\",\"properties\":{},\"geometry\":{\"type\":\"LineString\",\
+             \"coordinates\":[[8.54,47.37,1],[8.55,47.38,2]]}}",
+            "the coordinates are longitude and latitude",
+        ),
+        ("{\"type\":\"Polygon\",\"coordinates\":[[1,2,3],[4,5,6]]}", "a position is not an array of numbers"),
+        ("{\"type\":\"FeatureCollection\"}", "the document is not valid GeoJSON"),
+        ("{\"type\":\"FeatureCollection\",\"features\":[7]}", "the document is not valid GeoJSON"),
+        ("{\"type\":7}", "the document is not GeoJSON"),
+        ("{}", "the document is not GeoJSON"),
+    ] {
+        let error = text(document, None).map(|_| ()).unwrap_err();
+        assert!(error.starts_with(message), "{document}: {error}");
+    }
+}
+
+#[test]
 fn broken_spreadsheet_values_are_no_comments() {
     let error = text("x,y,z\n1,2,3\n#N/A,5,6\n7,8,9\n", None).unwrap_err();
     assert!(error.contains("the easting is missing") && error.contains("row 3"), "{error}");
@@ -225,12 +266,12 @@ fn markers_count_only_far_from_the_other_elevations() {
 
 #[test]
 fn all_defects_are_reported_at_once() {
-    let error = text("line,x,y,z\na,0,0,\na,9,0,1\nb,0,0,inf\nb,5,5,5\nb,5,5,6\nc,3,3,3\nc,3,3,3\n", None).unwrap_err();
-    for part in ["row 2", "row 4", "rows 7 to 8"] {
+    let error = text("line,x,y,z\na,0,0,\na,9,0,1\nb,0,0,inf\nb,5,5,5\nb,5,5,6\nb,7,7,7\nc,3,3,3\nc,3,3,3\n", None).unwrap_err();
+    for part in ["no elevation\n  --> a, row 2", "not a finite number\n  --> a, row 4", "above each other\n  --> a, rows 5 to 6"]
+    {
         assert!(error.contains(part), "{part}: {error}");
     }
-    // Line b is not looked at further: its vertices are not sound.
-    assert!(!error.contains("above each other"), "{error}");
+    assert!(error.contains("2 distinct vertices\n  --> a, rows 8 to 9"), "{error}");
 }
 
 /// Refusals with their whole text: one block per file in `fixtures/input/refusals.txt`, `== name` above each.
