@@ -5,7 +5,9 @@
 
 pub mod kernel;
 pub mod model;
+pub mod read;
 pub mod report;
 pub mod sheet;
 pub mod slope;
+pub mod validate;
 pub mod write;

@@ -3,11 +3,13 @@
 pub mod design;
 pub mod line;
 pub mod notation;
+pub mod note;
 pub mod slope;
 pub mod tin;
 
 pub use design::{Design, Extent, Sheet, Side};
 pub use line::{Chain, Line, Place, Role};
 pub use notation::SlopeError;
+pub use note::{Defect, Defects, Note};
 pub use slope::Slope;
 pub use tin::{CurveKind, LineFeature, Part, Tin};

@@ -1,0 +1,47 @@
+//! Why an input could not be read.
+
+use crate::model::Defects;
+use thiserror::Error;
+
+/// Why an input could not be read. `Display` gives the whole message with place and cure, without the leading `error: `.
+#[derive(Debug, Error)]
+pub enum ReadError {
+    /// The file could not be opened or read.
+    #[error("the input cannot be read\n  --> {label}\n   = {cause}")]
+    Open {
+        /// The file.
+        label: String,
+        /// What the system says.
+        cause: std::io::Error,
+    },
+    /// The extension does not name a format.
+    #[error(
+        "the extension does not say what format this is\n  --> {label}\n   = known: .geojson .json .csv .txt .tsv .xyz\n   \
+         = help: give `--input-format geojson` or `--input-format csv`"
+    )]
+    UnknownFormat {
+        /// The file.
+        label: String,
+    },
+    /// Standard input without a format.
+    #[error(
+        "standard input has no extension that says its format\n  --> <stdin>\n   = help: give `--input-format geojson` or \
+         `--input-format csv`"
+    )]
+    StdinFormat,
+    /// The file as a whole is not what it should be.
+    #[error("{what}\n  --> {at}\n   = {figures}\n   = help: {help}")]
+    Content {
+        /// What is wrong.
+        what: String,
+        /// File, with line and column where known.
+        at: String,
+        /// What was found.
+        figures: String,
+        /// What mends it.
+        help: String,
+    },
+    /// Single records are wrong: all of them.
+    #[error("{0}")]
+    Records(Defects),
+}

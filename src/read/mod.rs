@@ -1,0 +1,233 @@
+//! Bytes → raw records with positions. Nothing is judged here beyond what a record needs to be read.
+
+mod columns;
+mod csv;
+mod decode;
+mod error;
+mod geojson;
+mod number;
+mod sniff;
+
+pub use columns::ColumnOrder;
+pub use error::ReadError;
+
+use crate::model::Note;
+use sha2::{Digest, Sha256};
+use std::fmt;
+use std::io::Read;
+use std::path::Path;
+
+/// Formats a line or points can be read from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InputFormat {
+    /// GeoJSON, RFC 7946 or older.
+    GeoJson,
+    /// Rows of text: comma, semicolon, tab or blanks between the fields.
+    Csv,
+}
+
+impl InputFormat {
+    /// Name in reports and for `--input-format`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::GeoJson => "geojson",
+            Self::Csv => "csv",
+        }
+    }
+
+    /// The format a file name stands for; `None` if its extension says nothing.
+    pub fn from_path(path: &Path) -> Option<Self> {
+        let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+        match extension.as_str() {
+            "geojson" | "json" => Some(Self::GeoJson),
+            "csv" | "txt" | "tsv" | "xyz" => Some(Self::Csv),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for InputFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// What the input says about its own coordinates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CoordinateKind {
+    /// Nothing.
+    #[default]
+    Unknown,
+    /// Longitude and latitude in degrees (by its CRS or by its column headings).
+    Degrees,
+    /// Plan coordinates as lengths (by its CRS or by headings like `easting`).
+    Lengths,
+}
+
+/// Where an input came from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// Path as given, or `<stdin>`.
+    pub label: String,
+    /// Its format.
+    pub format: InputFormat,
+    /// SHA-256 of the bytes, in lower-case hexadecimal digits.
+    pub sha256: String,
+    /// Name of the coordinate reference system as the file gives it.
+    pub crs: Option<String>,
+    /// What the file says about its coordinates.
+    pub kind: CoordinateKind,
+}
+
+/// What a raw line is in its file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RawShape {
+    /// A polyline; a ring if its last vertex repeats the first.
+    Line,
+    /// Ring of a polygon.
+    Ring {
+        /// Polygon, counted from 0 over the whole input.
+        polygon: u32,
+        /// Whether it is a hole.
+        hole: bool,
+    },
+}
+
+/// One vertex as read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RawVertex {
+    /// Easting.
+    pub x: f64,
+    /// Northing.
+    pub y: f64,
+    /// Elevation; `None` where there is none, or a word for none such as `NaN` or `#N/A`.
+    pub z: Option<f64>,
+    /// Row of a text file, counted from 1.
+    pub row: Option<u32>,
+}
+
+/// One line as read, closing vertices and repetitions included.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawLine {
+    /// Feature id, name property or line-id column.
+    pub name: Option<String>,
+    /// Position of the feature in its collection, counted from 1.
+    pub feature: Option<u32>,
+    /// Polyline or polygon ring.
+    pub shape: RawShape,
+    /// The vertices in the order of the file.
+    pub vertices: Vec<RawVertex>,
+}
+
+/// A line input as read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawInput {
+    /// Where it came from.
+    pub source: Source,
+    /// The lines in the order of the file; at least one.
+    pub lines: Vec<RawLine>,
+    /// What was seen on the way (dialect of a text file, features skipped).
+    pub notes: Vec<Note>,
+}
+
+/// A point to sample the surface at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointRow {
+    /// Easting.
+    pub x: f64,
+    /// Northing.
+    pub y: f64,
+    /// Row of the file, counted from 1.
+    pub row: u32,
+}
+
+/// Points as read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawPoints {
+    /// Where they came from.
+    pub source: Source,
+    /// The points in the order of the file; at least one, all coordinates finite.
+    pub points: Vec<PointRow>,
+    /// What was seen on the way.
+    pub notes: Vec<Note>,
+}
+
+/// What the caller knows about a file.
+#[derive(Clone, Debug, Default)]
+pub struct ReadOptions {
+    /// Its format; `None`: from the extension. Needed for standard input.
+    pub format: Option<InputFormat>,
+    /// The columns of a text file without header.
+    pub csv_order: Option<ColumnOrder>,
+}
+
+/// Reads a line from a file, or from standard input when the path is `-`.
+///
+/// # Errors
+/// [`ReadError`] when the file cannot be opened, its format is not known, or its content cannot be understood. Missing
+/// elevations and everything about the shape are left to validation.
+pub fn read_line(path: &Path, options: &ReadOptions) -> Result<RawInput, ReadError> {
+    let (label, format, bytes) = load(path, options)?;
+    parse_line(&label, &bytes, format, options.csv_order.as_ref())
+}
+
+/// Reads a line from bytes; `label` names them in messages.
+///
+/// # Errors
+/// As [`read_line`].
+pub fn parse_line(label: &str, bytes: &[u8], format: InputFormat, order: Option<&ColumnOrder>) -> Result<RawInput, ReadError> {
+    let mut notes = Vec::new();
+    let text = decode::text(label, bytes, &mut notes)?;
+    let mut source = source(label, format, bytes);
+    let lines = match format {
+        InputFormat::GeoJson => geojson::lines(&text, &mut source, &mut notes)?,
+        InputFormat::Csv => csv::lines(&text, &mut source, order, &mut notes)?,
+    };
+    Ok(RawInput { source, lines, notes })
+}
+
+/// Reads points from a text file, or from standard input when the path is `-`. Elevations are not needed.
+///
+/// # Errors
+/// As [`read_line`]; also for coordinates that are missing or not finite.
+pub fn read_points(path: &Path, options: &ReadOptions) -> Result<RawPoints, ReadError> {
+    let with_default = ReadOptions { format: options.format.or(Some(InputFormat::Csv)), ..options.clone() };
+    let (label, _, bytes) = load(path, &with_default)?;
+    parse_points(&label, &bytes, options.csv_order.as_ref())
+}
+
+/// Reads points from the bytes of a text file; `label` names them in messages.
+///
+/// # Errors
+/// As [`read_points`].
+pub fn parse_points(label: &str, bytes: &[u8], order: Option<&ColumnOrder>) -> Result<RawPoints, ReadError> {
+    let mut notes = Vec::new();
+    let text = decode::text(label, bytes, &mut notes)?;
+    let mut source = source(label, InputFormat::Csv, bytes);
+    let points = csv::points(&text, &mut source, order, &mut notes)?;
+    Ok(RawPoints { source, points, notes })
+}
+
+/// Opens and reads the whole input.
+fn load(path: &Path, options: &ReadOptions) -> Result<(String, InputFormat, Vec<u8>), ReadError> {
+    if path == Path::new("-") {
+        let label = "<stdin>".to_owned();
+        let format = options.format.ok_or(ReadError::StdinFormat)?;
+        let mut bytes = Vec::new();
+        match std::io::stdin().lock().read_to_end(&mut bytes) {
+            Ok(_) => Ok((label, format, bytes)),
+            Err(cause) => Err(ReadError::Open { label, cause }),
+        }
+    } else {
+        let label = path.display().to_string();
+        let format = options.format.or_else(|| InputFormat::from_path(path));
+        let format = format.ok_or_else(|| ReadError::UnknownFormat { label: label.clone() })?;
+        let bytes = std::fs::read(path).map_err(|cause| ReadError::Open { label: label.clone(), cause })?;
+        Ok((label, format, bytes))
+    }
+}
+
+fn source(label: &str, format: InputFormat, bytes: &[u8]) -> Source {
+    let sha256 = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    Source { label: label.to_owned(), format, sha256, crs: None, kind: CoordinateKind::Unknown }
+}

@@ -1,0 +1,55 @@
+//! Raw records → the model, or the full list of what is wrong with them.
+
+mod degrees;
+mod place;
+mod rings;
+mod steep;
+mod vertices;
+
+pub use steep::check_steepness;
+
+use crate::model::{Defects, Line, Note};
+use crate::read::RawInput;
+
+/// Vertices closer than this in plan and in height are one vertex, in the input's length unit. Surveyed coordinates are given
+/// to 1e-3 or 1e-4; a tenth of a micrometre is what is left of sums and conversions at coordinates of 1e7.
+pub const MERGE_DISTANCE: f64 = 1e-6;
+
+/// Largest magnitude of a coordinate, in the input's length unit: beyond it a double resolves less than 1e-7, and no
+/// projected coordinate on Earth comes near it.
+pub const INPUT_LIMIT: f64 = 1e9;
+
+/// What the caller asks of the line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Make rings of lines that do not end where they begin.
+    pub closed: bool,
+}
+
+/// A line that meets the invariants of [`Line`], and what was done to it on the way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checked {
+    /// The line.
+    pub line: Line,
+    /// What was merged, closed or noticed.
+    pub notes: Vec<Note>,
+}
+
+/// Checks a raw line and makes a line of it.
+///
+/// Repeated vertices are merged ([`MERGE_DISTANCE`]); a line that ends where it begins is a ring, if three vertices are left.
+/// Collinear vertices stay. Open lines may cross and cover themselves and each other; rings may not, except that rings of
+/// different polygons may touch and share stretches. Rings inside each other bound by the even-odd rule.
+///
+/// # Errors
+/// All defects found, not only the first. The shape of rings is checked for those whose vertices are sound.
+pub fn check(raw: &RawInput, options: &Options) -> Result<Checked, Defects> {
+    let mut defects = Defects::default();
+    let mut notes = Vec::new();
+    degrees::check(raw, &mut defects, &mut notes);
+    let chains = vertices::chains(raw, *options, &mut defects, &mut notes);
+    rings::check(&raw.source.label, &chains, &mut defects);
+    defects.into_result()?;
+    // Without defects every raw line has become a chain.
+    Ok(Checked { line: Line { chains }, notes })
+}

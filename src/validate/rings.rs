@@ -1,0 +1,216 @@
+//! Rings may not touch or cross themselves, nor cross each other; holes lie inside their polygon.
+//!
+//! All decisions are exact: signs come from adaptive predicates on the given coordinates.
+
+mod contact;
+mod tree;
+
+use super::place::Locator;
+use super::vertices::show;
+use crate::model::{Chain, Defect, Defects, Role};
+use contact::{Contacts, Meeting, is_spike, meeting, orient};
+use glam::DVec2;
+use std::collections::{BTreeMap, HashSet};
+use tree::Tree;
+
+/// After so many crossings the search ends: a scribble of n segments has n² of them.
+const ENOUGH: usize = 1000;
+
+/// A segment: its chain among the rings and its number there.
+#[derive(Clone, Copy, Debug)]
+struct Segment {
+    ring: usize,
+    index: usize,
+    a: DVec2,
+    b: DVec2,
+}
+
+/// The rings among the chains, with their segments in one list.
+struct Rings<'a> {
+    chains: Vec<&'a Chain>,
+    locators: Vec<Locator<'a>>,
+    label: &'a str,
+    segments: Vec<Segment>,
+}
+
+/// Checks the rings among the chains.
+pub(super) fn check(label: &str, chains: &[Chain], defects: &mut Defects) {
+    let all = Locator::of_chains(label, chains);
+    let (chains, locators): (Vec<_>, Vec<_>) = chains.iter().zip(all).filter(|(chain, _)| chain.closed()).unzip();
+    if chains.is_empty() {
+        return;
+    }
+    let segments = chains.iter().enumerate().flat_map(|(ring, chain)| {
+        (0..chain.segment_count()).map(move |index| {
+            let (a, b) = chain.segment(index);
+            Segment { ring, index, a: a.truncate(), b: b.truncate() }
+        })
+    });
+    let rings = Rings { segments: segments.collect(), chains, locators, label };
+    let ends: Vec<_> = rings.segments.iter().map(|s| (s.a, s.b)).collect();
+    let tree = Tree::new(&ends);
+    let mut contacts: BTreeMap<(usize, usize), Contacts> = BTreeMap::new();
+    let mut seen = HashSet::new();
+    let mut found = 0;
+    tree.pairs(|i, j| {
+        let (s, t) = (rings.segments[i], rings.segments[j]);
+        if s.ring == t.ring {
+            found += usize::from(rings.with_itself(s, t, &mut seen, defects));
+        } else {
+            match meeting(s.a, s.b, t.a, t.b) {
+                Meeting::Apart => {}
+                Meeting::Cross(at) => {
+                    found += 1;
+                    rings.cross(s, t, at, defects);
+                }
+                Meeting::Touch(_) => {
+                    let (r, q) = (rings.chains[s.ring], rings.chains[t.ring]);
+                    contacts.entry((s.ring, t.ring)).or_default().add(r, s, q, t);
+                }
+            }
+        }
+        found < ENOUGH
+    });
+    if found > 0 {
+        // Sides and insides mean nothing while rings cross.
+        return;
+    }
+    for (&(a, b), contacts) in &contacts {
+        rings.judge_contacts(a, b, contacts, defects);
+    }
+    rings.holes(&tree, &contacts, defects);
+}
+
+impl Rings<'_> {
+    /// Two segments of one ring. Returns whether a defect was found.
+    fn with_itself(&self, s: Segment, t: Segment, seen: &mut HashSet<(usize, u64, u64)>, defects: &mut Defects) -> bool {
+        let chain = self.chains[s.ring];
+        let count = chain.segment_count();
+        let name = &chain.name;
+        let (code, what, at) = if t.index == s.index + 1 || (s.index == 0 && t.index + 1 == count) {
+            // Neighbours share one vertex; more only where the ring turns back on itself.
+            let (before, corner, after) = if t.index == s.index + 1 { (s.a, s.b, t.b) } else { (t.a, t.b, s.b) };
+            if !is_spike(before, corner, after) {
+                return false;
+            }
+            ("ring-spike", format!("ring `{name}` runs out and back on itself"), corner)
+        } else {
+            match meeting(s.a, s.b, t.a, t.b) {
+                Meeting::Apart => return false,
+                Meeting::Cross(at) => ("ring-crosses-itself", format!("ring `{name}` crosses itself"), at),
+                Meeting::Touch(at) => ("ring-touches-itself", format!("ring `{name}` touches itself"), at),
+            }
+        };
+        // A vertex that lies on another one is met by four pairs of segments.
+        if seen.insert((s.ring, (at.x + 0.0).to_bits(), (at.y + 0.0).to_bits())) {
+            defects.push(code, || Defect {
+                code,
+                what,
+                at: self.at(s, t),
+                figures: Some(format!("at x {}, y {}", show(at.x), show(at.y))),
+                help: "the inside of a ring must be clear: put its vertices in order, take the spike out, or split it into \
+                       rings that touch nowhere"
+                    .into(),
+            });
+        }
+        true
+    }
+
+    fn at(&self, s: Segment, t: Segment) -> String {
+        let name = |s: Segment| {
+            let chain = self.chains[s.ring];
+            let next = (s.index + 1) % chain.places.len();
+            self.locators[s.ring].segment(chain.places[s.index], chain.places[next])
+        };
+        format!("{}, {} and {}", self.label, name(s), name(t))
+    }
+
+    fn cross(&self, s: Segment, t: Segment, at: DVec2, defects: &mut Defects) {
+        defects.push("rings-cross", || Defect {
+            code: "rings-cross",
+            what: self.what(s.ring, t.ring, "cross each other"),
+            at: self.at(s, t),
+            figures: Some(format!("at x {}, y {}", show(at.x), show(at.y))),
+            help: "join rings that overlap to one, or move them apart; a hole must lie inside its polygon".into(),
+        });
+    }
+
+    fn what(&self, a: usize, b: usize, verb: &str) -> String {
+        let name = |i: usize| {
+            let kind = if matches!(self.chains[i].role, Role::Hole { .. }) { "hole" } else { "ring" };
+            format!("{kind} `{}`", self.chains[i].name)
+        };
+        format!("{} and {} {verb}", name(a), name(b))
+    }
+
+    fn judge_contacts(&self, a: usize, b: usize, contacts: &Contacts, defects: &mut Defects) {
+        let Some((s, t, at)) = contacts.first else { return };
+        if contacts.left && contacts.right {
+            self.cross(s, t, at, defects);
+        } else if !contacts.left && !contacts.right {
+            defects.push("ring-twice", || Defect {
+                code: "ring-twice",
+                what: self.what(a, b, "are the same"),
+                at: self.at(s, t),
+                figures: Some(format!(
+                    "{} and {} vertices, one outline",
+                    self.chains[a].places.len(),
+                    self.chains[b].places.len()
+                )),
+                help: "take one of the two out".into(),
+            });
+        }
+    }
+
+    /// Holes must lie inside the outer ring of their polygon.
+    fn holes(&self, tree: &Tree, contacts: &BTreeMap<(usize, usize), Contacts>, defects: &mut Defects) {
+        let mut outer_of = BTreeMap::new();
+        for (i, chain) in self.chains.iter().enumerate() {
+            if let Role::Outer { polygon } = chain.role {
+                outer_of.insert(polygon, i);
+            }
+        }
+        for (hole, chain) in self.chains.iter().enumerate() {
+            let Role::Hole { polygon } = chain.role else { continue };
+            // Without a sound outer ring there is another defect already.
+            let Some(&outer) = outer_of.get(&polygon) else { continue };
+            let touching = contacts.get(&(outer.min(hole), outer.max(hole))).filter(|c| c.left != c.right);
+            let inside = match touching {
+                // The outer ring comes first in its polygon, so the side is that of the hole as seen from it.
+                Some(contacts) => contacts.left == (self.doubled_area(outer) > 0.0),
+                None => self.contains(tree, outer, chain.vertices[0].truncate()),
+            };
+            if !inside {
+                defects.push("hole-outside", || Defect {
+                    code: "hole-outside",
+                    what: format!("a hole of polygon `{}` lies outside its outer ring", self.chains[outer].name),
+                    at: self.locators[hole].line(chain.places[0].feature),
+                    figures: Some(format!("at x {}, y {}", show(chain.vertices[0].x), show(chain.vertices[0].y))),
+                    help: "move the hole inside, or make it a polygon of its own".into(),
+                });
+            }
+        }
+    }
+
+    /// Whether `p`, not on the ring, lies inside it: an odd number of segments crosses the ray towards +x.
+    fn contains(&self, tree: &Tree, ring: usize, p: DVec2) -> bool {
+        let mut inside = false;
+        tree.ray(p, |i| {
+            let s = self.segments[i];
+            if s.ring == ring && (s.a.y > p.y) != (s.b.y > p.y) {
+                let left = orient(s.a, s.b, p) > 0.0;
+                inside ^= left == (s.b.y > s.a.y);
+            }
+        });
+        inside
+    }
+
+    /// Twice the area of a ring, positive when counter-clockwise.
+    fn doubled_area(&self, ring: usize) -> f64 {
+        let origin = self.chains[ring].vertices[0].truncate();
+        self.segments.iter().filter(|s| s.ring == ring).map(|s| (s.a - origin).perp_dot(s.b - origin)).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests;

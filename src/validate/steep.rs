@@ -1,0 +1,157 @@
+//! Segments as steep as the slope, or steeper, cannot lie on a surface of that slope.
+
+use super::place::Locator;
+use crate::model::{Defect, Defects, Line, Slope};
+
+/// Refuses every segment with `|Δz| ≥ k·L`. Neighbouring steep segments are reported as one stretch, with its stations and
+/// its steepest gradient.
+///
+/// # Errors
+/// All such stretches, with the flattest slope that would do for the whole line as the cure.
+pub fn check_steepness(line: &Line, label: &str, slope: Slope) -> Result<(), Defects> {
+    let k = slope.ratio();
+    let mut defects = Defects::default();
+    let mut steepest = 0.0f64;
+    for chain in &line.chains {
+        for i in 0..chain.segment_count() {
+            steepest = steepest.max(gradient(chain.segment(i)).abs());
+        }
+    }
+    let help = || format!("flatten the line there, or ask for {} or steeper", flattest(steepest));
+    for (chain, locator) in line.chains.iter().zip(Locator::of_chains(label, &line.chains)) {
+        let is_steep = |i: usize| {
+            let (a, b) = chain.segment(i);
+            (b.z - a.z).abs() >= k * a.truncate().distance(b.truncate())
+        };
+        let stations = chain.stations();
+        let n = chain.segment_count();
+        let mut i = 0;
+        while i < n {
+            if !is_steep(i) {
+                i += 1;
+                continue;
+            }
+            let end = (i + 1..n).find(|&j| !is_steep(j)).unwrap_or(n);
+            let from = std::mem::replace(&mut i, end);
+            defects.push("too-steep", || {
+                let worst = (from..end).map(|j| gradient(chain.segment(j)).abs()).fold(0.0, f64::max);
+                let name = &chain.name;
+                let (what, gradient) = if end - from == 1 {
+                    (format!("segment {} of `{name}` is", from + 1), "gradient")
+                } else {
+                    (format!("segments {} to {end} of `{name}` are", from + 1), "steepest gradient")
+                };
+                Defect {
+                    code: "too-steep",
+                    what: format!("{what} as steep as the slope asked for, or steeper"),
+                    at: locator.pair(chain.places[from], chain.places[end % chain.places.len()]),
+                    figures: Some(format!(
+                        "stations {:.3} to {:.3}: {gradient} {} ({:.1} %, {:.2}°); slope asked for 1V:{}H ({:.1} %, {:.2}°)",
+                        stations[from],
+                        stations[end],
+                        significant(worst),
+                        100.0 * worst,
+                        worst.atan().to_degrees(),
+                        significant(slope.one_in()),
+                        slope.percent(),
+                        slope.degrees()
+                    )),
+                    help: help(),
+                }
+            });
+        }
+    }
+    defects.into_result()
+}
+
+/// Rise per run; infinite only if a segment had no plan length, which the model excludes.
+fn gradient((a, b): (glam::DVec3, glam::DVec3)) -> f64 {
+    (b.z - a.z) / a.truncate().distance(b.truncate())
+}
+
+/// A number to four significant digits, without trailing zeros.
+fn significant(value: f64) -> String {
+    let digits = 3 - value.abs().log10().floor() as i32;
+    trimmed(format!("{value:.*}", digits.clamp(0, 12) as usize))
+}
+
+/// The flattest slope in three significant digits of its run that is steeper than `gradient`: `1:1.21`, or `1V:0.5H` where
+/// `1:0.5` would be ambiguous.
+fn flattest(gradient: f64) -> String {
+    // A gradient of up to 2 · INPUT_LIMIT over MERGE_DISTANCE needs 18 decimals.
+    let limit = 1.0 / gradient;
+    // A limit that is a power of ten counts as just below it: 0.999 follows 1, not 0.99.
+    let decimals = (3 - limit.log10().ceil() as i32).clamp(0, 18);
+    let scale = 10f64.powi(decimals);
+    let mut digits = (limit * scale).floor();
+    // Strictly steeper, also where the limit is a round number or rounding met it.
+    while digits > 1.0 && 1.0 / (digits / scale) <= gradient {
+        digits -= 1.0;
+    }
+    let n = digits / scale;
+    let text = trimmed(format!("{n:.*}", decimals as usize));
+    if n >= 1.0 { format!("1:{text}") } else { format!("1V:{text}H") }
+}
+
+/// A decimal number without trailing zeros.
+fn trimmed(text: String) -> String {
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Chain, Place, Role};
+    use glam::DVec3;
+
+    fn line(points: &[[f64; 3]], role: Role) -> Line {
+        let vertices: Vec<DVec3> = points.iter().map(|&p| p.into()).collect();
+        let places = (0..points.len() as u32).map(|i| Place { feature: None, vertex: i + 1, row: Some(i + 2) }).collect();
+        Line { chains: vec![Chain { name: "line 1".into(), role, vertices, places }] }
+    }
+
+    #[test]
+    fn the_cure_is_steeper_and_the_next_flatter_is_not() {
+        // 1 / 0.82 = 1.2195…
+        assert_eq!(flattest(0.82), "1:1.21");
+        // Round limits: the slope itself would be as steep as the gradient.
+        assert_eq!(flattest(0.5), "1:1.99");
+        assert_eq!(flattest(1.0), "1V:0.999H");
+        assert_eq!(flattest(0.1), "1:9.99");
+        assert_eq!(flattest(170.0), "1V:0.00588H");
+        assert_eq!(flattest(0.0004), "1:2499");
+        for i in 1..2000 {
+            let gradient = f64::from(i) * 0.0137;
+            let text = flattest(gradient);
+            let n: f64 = text.trim_start_matches("1V:").trim_start_matches("1:").trim_end_matches('H').parse().unwrap();
+            assert!(1.0 / n > gradient, "{gradient}: {text}");
+            assert!(1.0 / (n * 1.02) <= gradient, "{gradient}: {text} is steeper than it need be");
+        }
+    }
+
+    #[test]
+    fn names_every_steep_stretch() {
+        // Plan lengths 5 (3-4-5 triangle), 10, 10, 10; rises 5, 0, 8, −20.
+        let points = [[0., 0., 0.], [3., 4., 5.], [13., 4., 5.], [23., 4., 13.], [33., 4., -7.]];
+        let slope = Slope::from_ratio(0.8).unwrap();
+        let error = check_steepness(&line(&points, Role::Open), "a.csv", slope).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "segment 1 of `line 1` is as steep as the slope asked for, or steeper\n  --> a.csv, rows 2 to 3\n   \
+             = stations 0.000 to 5.000: gradient 1 (100.0 %, 45.00°); slope asked for 1V:1.25H (80.0 %, 38.66°)\n\
+             error: segments 3 to 4 of `line 1` are as steep as the slope asked for, or steeper\n  --> a.csv, rows 4 to 6\n   \
+             = stations 15.000 to 35.000: steepest gradient 2 (200.0 %, 63.43°); slope asked for 1V:1.25H (80.0 %, 38.66°)\n   \
+             = help: flatten the line there, or ask for 1V:0.499H or steeper"
+        );
+    }
+
+    #[test]
+    fn the_closing_segment_counts_and_below_the_slope_all_is_well() {
+        let points = [[0., 0., 0.], [10., 0., 4.], [20., 10., 8.], [0., 10., 9.]];
+        let slope = Slope::from_ratio(0.5).unwrap();
+        assert!(check_steepness(&line(&points, Role::Open), "a", slope).is_ok());
+        let error = check_steepness(&line(&points, Role::Outer { polygon: 0 }), "a", slope).unwrap_err();
+        assert_eq!(error.list[0].at, "a, rows 5 to 2");
+        assert!(check_steepness(&line(&points, Role::Outer { polygon: 0 }), "a", Slope::from_ratio(0.91).unwrap()).is_ok());
+    }
+}
