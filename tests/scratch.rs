@@ -28,6 +28,22 @@ fn run(name:&str, line:&Line, k:f64, side:Side, depth:f64, eps:f64)->(usize,usiz
   let t2=std::time::Instant::now();
   let arcs=Arcs::new(&sheet,&c);
   let t3=std::time::Instant::now();
+  let top=line.elevation_range().1; let end=line.elevation_range().0-depth;
+  let levels=slopegen::slope::levels::Levels::between(end,top,slopegen::slope::levels::round_interval(top-end));
+  let cut=slopegen::slope::refine::Cut{levels:&levels,chord:0.003,reach:None};
+  let sl=if arcs.unpaired.is_empty()&&c.stuck.is_empty() {slopegen::slope::emit::emit(&sheet,&c,&arcs,&cut)} else {Default::default()};
+  let t4=std::time::Instant::now();
+  let mut used=std::collections::HashMap::new(); let mut bad=0; let mut worst=[0f64;2]; let mut herr=0f64; let mut w=0;
+  for (i,t) in sl.triangles.iter().enumerate(){ let p=t.map(|v|sl.points[v as usize]); let n=(p[1]-p[0]).cross(p[2]-p[0]); if n.z<=0.0 {bad+=1;continue} for e in [(t[0],t[1]),(t[1],t[2]),(t[2],t[0])]{*used.entry(e).or_insert(0)+=1;}
+    let ht=p.iter().map(|q|q.z).fold(f64::MIN,f64::max)-p.iter().map(|q|q.z).fold(f64::MAX,f64::min); if ht>1e-4 { let d=((n.truncate().length()/n.z).atan()-k.atan()).to_degrees().abs(); let o=sl.on_cone[i] as usize; worst[o]=worst[o].max(d);}
+    if i%7==0 { let m=(p[0]+p[1]+p[2])/3.0; herr=herr.max((index.height(m.truncate(),None).0-m.z).abs()); for q in p { w+=1; herr=herr.max((index.height(q.truncate(),None).0-q.z).abs());} } }
+  let dup=used.values().filter(|&&c|c>1).count(); let bnd=used.keys().filter(|e|!used.contains_key(&(e.1,e.0))).count();
+  // boundary edges must be traced as hinge or boundary
+  let tr:std::collections::HashSet<(u32,u32)>=sl.traces.iter().filter(|t|matches!(t.0,slopegen::slope::emit::Trace::Hinge|slopegen::slope::emit::Trace::Boundary)).flat_map(|t|[(t.1[0],t.1[1]),(t.1[1],t.1[0])]).collect();
+  let crack=used.keys().filter(|e|!used.contains_key(&(e.1,e.0))&&!tr.contains(e)).count();
+  let lost=sl.traces.iter().filter(|t|!used.contains_key(&(t.1[0],t.1[1]))&&!used.contains_key(&(t.1[1],t.1[0]))).count();
+  let _=w; if bad+dup+crack+lost+sl.failed.len()>0 || worst[0]>0.01||worst[1]>0.1||herr>0.004||name.starts_with('!') { println!("  EMIT {name}: T {} V {} bad {bad} dup {dup} bnd {bnd} crack {crack} lost {lost} failed {} slope {worst:?} herr {herr:.2e} emit {:?}", sl.triangles.len(), sl.points.len(), sl.failed.len(), t4-t3); }
+  if net.edges.len()<12 { for &f in &sl.failed { let nm=|f:u32| if f==u32::MAX {"E".to_string()} else {f.to_string()}; let fc=&fans.facets[f as usize]; println!("   FAILED f{f} {:?} L{:?} tau_max {} g {}", fc.kind, fc.lateral, fc.tau_max, fc.gamma); for k in &c.knots[f as usize] { println!("      {}|{} v{}@{:.6} {:?}", nm(k.left),nm(k.right),k.vertex,k.tau,c.vertices[k.vertex as usize]);} let bp=sl.points.iter().position(|p|!p.is_finite()); println!("   nonfinite {bp:?} nclosure {} ", c.vertices.len()); for (i,q) in sl.points.iter().enumerate().skip(c.vertices.len()).take(0){ println!("{i} {q}"); } } }
   if !arcs.unpaired.is_empty()||!c.stuck.is_empty()||name.starts_with('!') {
   println!("{name}: edges {} facets {} verts {} arcs {} unpaired {} stuck {} strangers {} | net {:?} close {:?} pair {:?}", net.edges.len(), fans.facets.len(), c.vertices.len(), arcs.arcs.len(), arcs.unpaired.len(), c.stuck.len(), c.strangers, t1-t0,t2-t1,t3-t2);
   if net.edges.len()<=std::env::var("V").ok().and_then(|v|v.parse().ok()).unwrap_or(0) {

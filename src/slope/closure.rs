@@ -8,7 +8,7 @@
 use super::facet::{Crossing, END, FacetId, Kind, Lateral};
 use super::network::twin;
 use super::trim::{Sheet, Tip};
-use crate::kernel::dd::{Dd, DdVec2};
+use crate::kernel::dd::DdVec2;
 use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;

@@ -55,10 +55,10 @@ pub struct Edge {
     pub b: u32,
     /// Whether a slope is wanted on the left (0) and on the right (1).
     pub wanted: [bool; 2],
-    /// Chain the edge comes from (the first, where several share it) and whether it runs along it.
+    /// Whether the inside of a ring lies on the left (0) and on the right (1).
+    pub interior: [bool; 2],
+    /// Chain the edge comes from and runs along (the first, where several share it).
     pub chain: u32,
-    /// Whether the edge runs in the direction of its chain.
-    pub forward: bool,
     /// Vertices between the ends.
     pub inner: Vec<Inner>,
 }
@@ -76,7 +76,7 @@ pub struct Network {
     pub node_given: Vec<Given>,
     /// Edges.
     pub edges: Vec<Edge>,
-    /// Node of each given vertex by chain, where it was kept.
+    /// Vertices that were moved onto a chord.
     pub simplified: usize,
     /// Collinear vertices: dropped without being moved.
     pub collinear: usize,
@@ -88,6 +88,7 @@ pub struct Network {
 struct Piece {
     ends: [u32; 2],
     wanted: [bool; 2],
+    interior: [bool; 2],
     chain: u32,
 }
 
@@ -187,7 +188,7 @@ impl Network {
             let point = if exact { points[d.index] } else { pa.lerp(pb, d.along) };
             inner.push(Inner { s: d.along * length, point, given: self.node_given[run.nodes[d.index] as usize] });
         }
-        self.edges.push(Edge { a, b, wanted: run.wanted, chain: run.chain, forward: run.forward, inner });
+        self.edges.push(Edge { a, b, wanted: run.wanted, interior: run.interior, chain: run.chain, inner });
     }
 
     /// Renumbers nodes so that only those with an edge remain, in their old order.
@@ -292,6 +293,7 @@ fn pieces(line: &Line, design: &Design, of_vertex: &[Vec<u32>]) -> Vec<Piece> {
             Side::Inside => [interior_left, !interior_left],
             Side::Outside => [!interior_left, interior_left],
         };
+        let interior = [chain.closed() && interior_left, chain.closed() && !interior_left];
         for i in 0..chain.segment_count() {
             let a = of_vertex[c][i];
             let b = of_vertex[c][(i + 1) % of_vertex[c].len()];
@@ -300,15 +302,18 @@ fn pieces(line: &Line, design: &Design, of_vertex: &[Vec<u32>]) -> Vec<Piece> {
             }
             let pair = [a.min(b), a.max(b)];
             if let Some(&p) = known.get(&pair) {
-                let here = if pieces[p].ends == [a, b] { wanted } else { [wanted[1], wanted[0]] };
+                let same = pieces[p].ends == [a, b];
+                let turned = |sides: [bool; 2]| if same { sides } else { [sides[1], sides[0]] };
+                let (here, inside) = (turned(wanted), turned(interior));
                 for s in 0..2 {
+                    pieces[p].interior[s] |= inside[s];
                     // Outside of two polygons is outside of both; any other wish holds where one line has it.
                     let there = pieces[p].wanted[s];
                     pieces[p].wanted[s] = if side == Side::Outside { there && here[s] } else { there || here[s] };
                 }
             } else {
                 known.insert(pair, pieces.len());
-                pieces.push(Piece { ends: [a, b], wanted, chain: c as u32 });
+                pieces.push(Piece { ends: [a, b], wanted, interior, chain: c as u32 });
             }
         }
     }
@@ -325,8 +330,8 @@ fn signed_area(ring: &[DVec3]) -> f64 {
 struct Run {
     nodes: Vec<u32>,
     wanted: [bool; 2],
+    interior: [bool; 2],
     chain: u32,
-    forward: bool,
 }
 
 /// Pieces by node.
@@ -351,7 +356,7 @@ impl<'a> Runs<'a> {
         let [p, q] = self.at_node[node as usize][..] else { return true };
         let (p, q) = (&self.pieces[p as usize], &self.pieces[q as usize]);
         let through = p.ends[1] == q.ends[0] || p.ends[0] == q.ends[1];
-        !through || p.chain != q.chain || p.wanted != q.wanted
+        !through || p.chain != q.chain || p.wanted != q.wanted || p.interior != q.interior
     }
 
     fn all(&self, points: &[DVec3]) -> Vec<Run> {
@@ -374,7 +379,7 @@ impl<'a> Runs<'a> {
     /// Follows pieces forward from piece `p` up to a fixed node or back to the start.
     fn walk(&self, p: usize, done: &mut [bool]) -> Run {
         let piece = &self.pieces[p];
-        let mut run = Run { nodes: vec![piece.ends[0], piece.ends[1]], wanted: piece.wanted, chain: piece.chain, forward: true };
+        let mut run = Run { nodes: vec![piece.ends[0], piece.ends[1]], wanted: piece.wanted, interior: piece.interior, chain: piece.chain };
         done[p] = true;
         let mut at = piece.ends[1];
         while !self.fixed(at) {
@@ -409,7 +414,7 @@ impl<'a> Runs<'a> {
         };
         [(first, second), (second, first)]
             .into_iter()
-            .map(|(from, to)| Run { nodes: path(from, to), wanted: run.wanted, chain: run.chain, forward: run.forward })
+            .map(|(from, to)| Run { nodes: path(from, to), wanted: run.wanted, interior: run.interior, chain: run.chain })
             .collect()
     }
 }

@@ -6,6 +6,7 @@ use super::facet::{END, Facet, FacetId, Kind};
 use super::levels::Levels;
 use super::trim::Sheet;
 use glam::DVec3;
+use std::f64::consts::TAU;
 
 /// Chords of a cone turn by no more than this (radians): their planes are then steeper than the cone by less than 0.05°.
 ///
@@ -82,8 +83,8 @@ impl Cut<'_> {
 
     /// The points of the crease between a sector and another facet.
     fn curve_points(&self, sheet: &Sheet, sector: &Facet, other: FacetId, ends: [DVec3; 2]) -> Vec<DVec3> {
-        let curve = Curve::new(sheet, sector, other);
         let taus = ends.map(|p| sector.parameters(p.truncate()).0);
+        let curve = Curve::new(sheet, sector, other, 0.5 * (taus[0] + taus[1]));
         let mut points: Vec<(f64, DVec3)> = vec![(taus[0], ends[0])];
         let between = |tau: f64| (tau > taus[0] && tau < taus[1]) || (tau < taus[0] && tau > taus[1]);
         let turns = between(curve.middle);
@@ -188,7 +189,7 @@ struct Curve<'a> {
 }
 
 impl<'a> Curve<'a> {
-    fn new(sheet: &Sheet, sector: &'a Facet, other: FacetId) -> Self {
+    fn new(sheet: &Sheet, sector: &'a Facet, other: FacetId, near: f64) -> Self {
         let foot = sector.origin.extend(sector.z0);
         let facet = sheet.facet(other);
         let (towards, num, shift, scale) = match facet.kind {
@@ -204,7 +205,9 @@ impl<'a> Curve<'a> {
                 (w / distance, (distance - e) * (distance + e), 2.0 * e, 2.0 * distance)
             }
         };
-        let (middle, _) = sector.parameters(sector.origin + towards);
+        // Of the angles that stand for this direction the one within half a turn of the arc.
+        let (angle, _) = sector.parameters(sector.origin + towards);
+        let middle = angle - TAU * ((angle - near) / TAU).round();
         Self { sector, middle, num, shift, scale }
     }
 
