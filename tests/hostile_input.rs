@@ -206,7 +206,7 @@ fn a_scribble_of_a_ring_ends_soon() {
 /// Hatching: long parallel strokes at an angle, whose boxes all overlap.
 #[test]
 fn a_hatched_ring_is_checked_in_time() {
-    let n = 20_000;
+    let n = 50_000;
     let (sin, cos) = 0.35f64.sin_cos();
     let mut points: Vec<(f64, f64)> = Vec::new();
     for i in 0..n {

@@ -106,7 +106,7 @@ fn notes_tell_what_was_done() {
     assert_eq!(
         notes("null_and_points.geojson"),
         [
-            "null-geometry: features without geometry passed over: 1",
+            "null-geometry: features and parts without geometry passed over: 1",
             "points-ignored: points passed over: 1 (only lines are used)"
         ]
     );
@@ -156,6 +156,122 @@ fn points_need_no_elevation() {
     assert_eq!(points, [(500_100.5, 5_400_200.25, 2), (500_130.125, 5_400_212.75, 3)]);
     assert!(read::parse_points("a", b"x,y\n1,inf\n", None).unwrap_err().to_string().contains("not finite"));
     assert!(read::parse_points("a", b"1,2\n", None).unwrap_err().to_string().contains("--csv-order xy"));
+}
+
+/// Reads a text with the given order and checks it.
+fn text(text: &str, order: Option<&str>) -> Result<(Line, Vec<Note>), String> {
+    let order = order.map(|o| o.parse().unwrap());
+    let format = if text.starts_with('{') { read::InputFormat::GeoJson } else { read::InputFormat::Csv };
+    let raw = read::parse_line("a", text.as_bytes(), format, order.as_ref()).map_err(|e| e.to_string())?;
+    check(&raw, false).map(|(line, notes)| (line, raw.notes.into_iter().chain(notes).collect()))
+}
+
+#[test]
+fn orders_name_the_columns() {
+    for (order, rows) in [
+        ("xyz", "1,2,3\n4,5,6"),
+        ("nez", "2,1,3\n5,4,6"),
+        ("penzd", "7,1,2,3,a,b\n8,4,5,6"),
+        ("x_yz", "1,old,2,3\n4,new,5,6"),
+        ("zyx", "3 2 1\n6 5 4"),
+        ("XYZD", "1;2;3;kerb\n4;5;6;kerb"),
+        // A header gives way to the order.
+        ("xyz_", "x,y,z,level\n1,2,3,9\n4,5,6,9"),
+    ] {
+        let (line, _) = text(rows, Some(order)).unwrap_or_else(|e| panic!("{order}: {e}"));
+        assert_eq!(coordinates(&line), [vec![[1., 2., 3.], [4., 5., 6.]]], "{order}");
+    }
+    let (line, _) = text("a,1,2,3\nb,7,8,9\na,4,5,6\nb,9,9,9\n", Some("lxyz")).unwrap();
+    assert_eq!(line.chains.len(), 2);
+    let error = text("1,2,3,4\n5,6,7,8\n", Some("xyz")).unwrap_err();
+    assert!(error.contains("more fields than there are columns"), "{error}");
+    let error = text("1,2\n5,6\n", Some("xy")).unwrap_err();
+    assert!(error.contains("the column order has no elevation"), "{error}");
+    let error = text("x,y,z,line\n1,2,3,a\n5,6,7\n", None).unwrap_err();
+    assert!(error.contains("it has no line id"), "{error}");
+}
+
+#[test]
+fn sloppy_geojson_is_read() {
+    let geometry = "{\"type\":\"LineString\",\"bbox\":[1,2,7,8],\"coordinates\":[[1,2,3],[7,8,100000000000e-10]]}";
+    for document in [
+        format!("{{\"type\":\"Feature\",\"geometry\":{geometry}}}"),
+        format!("{{\"geometry\":{geometry},\"type\":\"Feature\",\"properties\":null,\"id\":7,\"extra\":{{}}}}"),
+        format!(
+            "{{\"features\":[{{\"type\":\"Feature\",\"properties\":{{}},\"geometry\":{geometry}}}],\"type\":\"FeatureCollection\"}}"
+        ),
+        geometry.replace("{\"type\":\"LineString\",", "{").replace("]}", "],\"type\":\"LineString\"}"),
+    ] {
+        let (line, _) = text(&document, None).unwrap_or_else(|e| panic!("{document}: {e}"));
+        assert_eq!(coordinates(&line), [vec![[1., 2., 3.], [7., 8., 10.]]]);
+    }
+    for (document, message) in [
+        ("{\"type\":\"LineString\"}", "the document is not valid GeoJSON"),
+        ("{\"type\":\"LineString\",\"coordinates\":[]}", "the file holds no line"),
+        ("{\"type\":\"LineString\",\"coordinates\":[1,2,3]}", "a position is not an array of numbers"),
+        ("{\"type\":\"Polygon\",\"coordinates\":[[]]}", "the file holds no line"),
+        ("{\"type\":\"Polygon\",\"coordinates\":[]}", "the file holds no line"),
+        ("{\"type\":\"Polygon\",\"coordinates\":[[],[[0,0,1],[9,0,1],[9,9,1]]]}", "a ring needs at least 3 distinct vertices"),
+        (
+            "{\"type\":\"Feature\",\"coordRefSys\":\"[EPSG:25832]\",\"properties\":{},\"geometry\":null,\"place\":{\"type\":\"Prism\"}}",
+            "the member `place` is no geometry known here",
+        ),
+        (
+            "{\"type\":\"Feature\",\"coordRefSys\":\"[EPSG:25832]\",\"properties\":{},\"geometry\":{\"type\":\"LineString\",\
+             \"coordinates\":[[8.54,47.37,1],[8.55,47.38,2]]}}",
+            "the coordinates are longitude and latitude",
+        ),
+        ("{\"type\":\"Polygon\",\"coordinates\":[[1,2,3],[4,5,6]]}", "a position is not an array of numbers"),
+        ("{\"type\":\"FeatureCollection\"}", "the document is not valid GeoJSON"),
+        ("{\"type\":\"FeatureCollection\",\"features\":[7]}", "the document is not valid GeoJSON"),
+        ("{\"type\":7}", "the document is not GeoJSON"),
+        ("{}", "the document is not GeoJSON"),
+    ] {
+        let error = text(document, None).map(|_| ()).unwrap_err();
+        assert!(error.starts_with(message), "{document}: {error}");
+    }
+}
+
+#[test]
+fn broken_spreadsheet_values_are_no_comments() {
+    let error = text("x,y,z\n1,2,3\n#N/A,5,6\n7,8,9\n", None).unwrap_err();
+    assert!(error.contains("the easting is missing") && error.contains("row 3"), "{error}");
+}
+
+#[test]
+fn local_coordinates_are_no_degrees() {
+    let line = |points: &str, crs: &str| text(&format!("{{\"type\":\"LineString\",\"coordinates\":[{points}]{crs}}}"), None);
+    let crs = |name: &str| format!(",\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":\"{name}\"}}}}");
+    let degrees = |result: Result<(Line, Vec<Note>), String>| result.is_err_and(|e| e.contains("ogr2ogr"));
+    // A site of 80 by 40 units, a model of half a unit about its origin, a millimetre beside one a metre away.
+    assert!(!degrees(line("[0,0,5],[80,40,6]", "")));
+    assert!(!degrees(line("[0,0,5],[0.5,0.25,6]", "")));
+    assert!(!degrees(line("[-0.4,0.1,5],[0.5,0.25,6]", "")));
+    // Zurich by figures alone; the same figures declared as metres; wide but declared as degrees; declared but beyond.
+    assert!(degrees(line("[8.54,47.37,410],[8.541,47.371,411]", "")));
+    assert!(!degrees(line("[8.54,47.37,410],[8.541,47.371,411]", &crs("EPSG:2056"))));
+    assert!(degrees(line("[0,0,5],[80,40,6]", &crs("urn:ogc:def:crs:OGC:1.3:CRS84"))));
+    let (_, notes) = line("[500100,5400200,5],[500180,5400240,6]", &crs("EPSG:4326")).unwrap();
+    assert_eq!(notes[0].code, "not-degrees");
+    assert!(!degrees(text("easting,northing,z\n8.54,47.37,410\n8.541,47.371,411\n", None)));
+    assert!(degrees(text("x,y,z\n8.54,47.37,410\n8.541,47.371,411\n", None)));
+}
+
+#[test]
+fn markers_count_only_far_from_the_other_elevations() {
+    assert!(text("x,y,z\n0,0,-980\n50,0,-999\n90,0,-1010\n", None).is_ok(), "a deep mine");
+    assert!(text("x,y,z\n0,0,12\n50,0,-999\n90,0,14\n", None).unwrap_err().contains("no-data value"));
+    assert!(text("x,y,z\n0,0,-9999\n50,0,-9999\n90,0,-9999\n", None).unwrap_err().contains("no-data value"));
+}
+
+#[test]
+fn all_defects_are_reported_at_once() {
+    let error = text("line,x,y,z\na,0,0,\na,9,0,1\nb,0,0,inf\nb,5,5,5\nb,5,5,6\nb,7,7,7\nc,3,3,3\nc,3,3,3\n", None).unwrap_err();
+    for part in ["no elevation\n  --> a, row 2", "not a finite number\n  --> a, row 4", "above each other\n  --> a, rows 5 to 6"]
+    {
+        assert!(error.contains(part), "{part}: {error}");
+    }
+    assert!(error.contains("2 distinct vertices\n  --> a, rows 8 to 9"), "{error}");
 }
 
 /// Refusals with their whole text: one block per file in `fixtures/input/refusals.txt`, `== name` above each.

@@ -2,6 +2,8 @@
 //! `quirks/manifest.csv` must be accepted or refused as the manifest says. Without the folder nothing is tested here; the
 //! files under `fixtures/input` cover the same cases in small.
 
+#![allow(clippy::print_stderr, reason = "tells what was skipped, and what each file gave")]
+
 use slopegen::read::{self, ReadOptions};
 use slopegen::validate::{self, Options};
 use std::path::{Path, PathBuf};

@@ -53,3 +53,25 @@ fn utf16<'a>(label: &str, bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Result<Cow<
     let text: Result<String, _> = char::decode_utf16(units).collect();
     text.map(Cow::Owned).map_err(|_| broken("unpaired surrogate"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn encodings() {
+        let read = |bytes: &[u8]| {
+            let mut notes = Vec::new();
+            let text = text("a", bytes, &mut notes).map(Cow::into_owned).map_err(|e| e.to_string());
+            (text, notes.len())
+        };
+        assert_eq!(read("Höhe".as_bytes()), (Ok("Höhe".into()), 0));
+        assert_eq!(read(b"\xEF\xBB\xBFx"), (Ok("x".into()), 0));
+        assert_eq!(read(b"H\xF6he"), (Ok("Höhe".into()), 1));
+        assert_eq!(read(b"\xFF\xFEx\0\xF6\0"), (Ok("xö".into()), 0));
+        assert_eq!(read(b"\xFE\xFF\0x\0\xF6"), (Ok("xö".into()), 0));
+        assert!(read(b"\xFF\xFEx").0.unwrap_err().contains("odd number of bytes"));
+        assert!(read(b"\xFF\xFE\0\xD8").0.unwrap_err().contains("unpaired surrogate"));
+        assert!(read(b"x\0y\0").0.unwrap_err().contains("byte 2 is zero"));
+    }
+}

@@ -1,10 +1,11 @@
 //! GeoJSON: lines and polygons of a geometry, a feature or a collection.
 
+mod crs;
 mod diagnose;
 
 use super::{CoordinateKind, RawLine, RawShape, RawVertex, ReadError, Source};
-use crate::model::{Defects, Note};
-use ::geojson::{Feature, FeatureCollection, Geometry, GeometryValue, JsonObject, JsonValue, Position};
+use crate::model::{Defect, Defects, Note};
+use ::geojson::{Feature, FeatureCollection, Geometry, GeometryValue, JsonValue, Position};
 use serde::Deserialize;
 use std::borrow::Cow;
 
@@ -35,7 +36,7 @@ pub(super) fn lines(text: &str, source: &mut Source, notes: &mut Vec<Note>) -> R
         }
         "Point" | "MultiPoint" | "LineString" | "MultiLineString" | "Polygon" | "MultiPolygon" | "GeometryCollection" => {
             let geometry: Geometry = parse(text).map_err(malformed)?;
-            read_crs(geometry.foreign_members.as_ref(), source);
+            crs::read(geometry.foreign_members.as_ref(), source);
             let mut collector = Collector::new(&source.label);
             collector.geometry(&geometry, None, None);
             return collector.finish(notes);
@@ -46,13 +47,19 @@ pub(super) fn lines(text: &str, source: &mut Source, notes: &mut Vec<Note>) -> R
             return Err(content("the document is not GeoJSON", source.label.clone(), figures, help));
         }
     };
-    read_crs(foreign.as_ref(), source);
+    crs::read(foreign.as_ref(), source);
     let json_fg = foreign.as_ref().is_some_and(|f| f.contains_key("coordRefSys"));
     let mut collector = Collector::new(&source.label);
     for (i, feature) in features.iter().enumerate() {
         collector.feature(feature, u32::try_from(i + 1).unwrap_or(u32::MAX), json_fg);
     }
-    collector.finish(notes)
+    let beside_place = collector.beside_place;
+    let lines = collector.finish(notes)?;
+    if beside_place {
+        // `geometry` should then be in degrees, whatever `coordRefSys` says: the figures must decide.
+        source.kind = CoordinateKind::Unknown;
+    }
+    Ok(lines)
 }
 
 fn parse<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, ::geojson::Error> {
@@ -98,53 +105,31 @@ fn content(what: &str, at: String, figures: String, help: &str) -> ReadError {
     ReadError::Content { what: what.into(), at, figures, help: help.into() }
 }
 
-/// Name of the reference system: the old `crs` member or the JSON-FG `coordRefSys`.
-fn read_crs(foreign: Option<&JsonObject>, source: &mut Source) {
-    let Some(foreign) = foreign else { return };
-    let text = |value: &JsonValue| match value {
-        JsonValue::String(text) => Some(text.clone()),
-        JsonValue::Null => None,
-        other => Some(other.to_string()),
-    };
-    let old = foreign.get("crs").and_then(|crs| {
-        let properties = crs.get("properties");
-        properties.and_then(|p| p.get("name").or_else(|| p.get("href")).or_else(|| p.get("code"))).and_then(text)
-    });
-    source.crs = foreign.get("coordRefSys").and_then(text).or(old);
-    source.kind = match &source.crs {
-        None => CoordinateKind::Unknown,
-        Some(name) if is_geographic(name) => CoordinateKind::Degrees,
-        Some(_) => CoordinateKind::Lengths,
-    };
-}
-
-/// Whether a reference system is known to count in degrees: CRS84 and its kin, and the EPSG codes from 4001 to 4999 and of
-/// newer geographic systems, which hold geographic systems (and a few geocentric ones, no plan coordinates either).
-fn is_geographic(name: &str) -> bool {
-    const NEWER: [u32; 12] = [6318, 6319, 6322, 6325, 6783, 7843, 7844, 8237, 8246, 8860, 9000, 10414];
-    let upper = name.to_ascii_uppercase();
-    if ["CRS84", "CRS83", "CRS27", "WGS84", "WGS 84"].iter().any(|known| upper.ends_with(known)) || upper.contains("CRS84") {
-        return true;
-    }
-    let digits: String = upper.chars().rev().skip_while(|c| !c.is_ascii_digit()).take_while(char::is_ascii_digit).collect();
-    let code = digits.chars().rev().collect::<String>().parse::<u32>();
-    upper.contains("EPSG") && code.is_ok_and(|code| (4001..=4999).contains(&code) || NEWER.contains(&code))
-}
-
 /// Turns geometries into raw lines, counting what it passes over.
 struct Collector<'a> {
     label: &'a str,
     lines: Vec<RawLine>,
     polygons: u32,
     features: usize,
-    without_geometry: usize,
+    empty: usize,
     points: usize,
+    /// Whether a JSON-FG document gave `geometry` instead of `place`.
+    beside_place: bool,
     defects: Defects,
 }
 
 impl<'a> Collector<'a> {
     fn new(label: &'a str) -> Self {
-        Self { label, lines: Vec::new(), polygons: 0, features: 0, without_geometry: 0, points: 0, defects: Defects::default() }
+        Self {
+            label,
+            lines: Vec::new(),
+            polygons: 0,
+            features: 0,
+            empty: 0,
+            points: 0,
+            beside_place: false,
+            defects: Defects::default(),
+        }
     }
 
     fn feature(&mut self, feature: &Feature, number: u32, json_fg: bool) {
@@ -152,10 +137,25 @@ impl<'a> Collector<'a> {
         let name = name(feature);
         // JSON-FG: `place` holds the geometry in `coordRefSys`, `geometry` at most a copy in degrees.
         let place = feature.foreign_members.as_ref().filter(|_| json_fg).and_then(|members| members.get("place"));
-        let place = place.and_then(|value| serde_json::from_value::<Geometry>(value.clone()).ok());
-        match place.as_ref().or(feature.geometry.as_ref()) {
-            Some(geometry) => self.geometry(geometry, Some(number), name.as_deref()),
-            None => self.without_geometry += 1,
+        if let Some(place) = place.filter(|place| !place.is_null()) {
+            match serde_json::from_value::<Geometry>(place.clone()) {
+                Ok(geometry) => self.geometry(&geometry, Some(number), name.as_deref()),
+                Err(cause) => self.defects.push("place", || Defect {
+                    code: "place",
+                    what: "the member `place` is no geometry known here".into(),
+                    at: format!("{}, feature {number}", self.label),
+                    figures: Some(cause.to_string()),
+                    help: "write it as LineString or Polygon with [x, y, z] positions".into(),
+                }),
+            }
+            return;
+        }
+        match &feature.geometry {
+            Some(geometry) => {
+                self.beside_place = json_fg;
+                self.geometry(geometry, Some(number), name.as_deref());
+            }
+            None => self.empty += 1,
         }
     }
 
@@ -185,12 +185,22 @@ impl<'a> Collector<'a> {
 
     fn polygon(&mut self, rings: &[Vec<Position>], feature: Option<u32>, name: Option<&str>) {
         for (i, ring) in rings.iter().enumerate() {
-            self.line(ring, feature, name, RawShape::Ring { polygon: self.polygons, hole: i > 0 });
+            let shape = RawShape::Ring { polygon: self.polygons, hole: i > 0 };
+            if i == 0 && ring.is_empty() && rings.len() > 1 {
+                // Holes without an outer ring: validation must see that it is missing.
+                self.lines.push(RawLine { name: name.map(str::to_owned), feature, shape, vertices: Vec::new() });
+            } else {
+                self.line(ring, feature, name, shape);
+            }
         }
         self.polygons += u32::from(!rings.is_empty());
     }
 
     fn line(&mut self, positions: &[Position], feature: Option<u32>, name: Option<&str>, shape: RawShape) {
+        if positions.is_empty() {
+            self.empty += 1;
+            return;
+        }
         let mut vertices = Vec::with_capacity(positions.len());
         for (i, position) in positions.iter().enumerate() {
             match *position.as_slice() {
@@ -209,18 +219,15 @@ impl<'a> Collector<'a> {
         self.defects.into_result().map_err(ReadError::Records)?;
         if self.lines.is_empty() {
             let (what, figures) = if self.points > 0 {
-                ("the file holds points, but no line", format!("{} points, 0 lines, 0 polygons", self.points))
+                ("the file holds points, but no line", format!("points: {}, lines: 0, polygons: 0", self.points))
             } else {
-                (
-                    "the file holds no line",
-                    format!("{} features, {} of them without geometry", self.features, self.without_geometry),
-                )
+                ("the file holds no line", format!("features: {}, empty geometries: {}", self.features, self.empty))
             };
             let help = "give a LineString or Polygon; points can be joined to a line in CSV, one row per vertex";
             return Err(content(what, self.label.to_owned(), figures, help));
         }
-        if self.without_geometry > 0 {
-            let message = format!("features without geometry passed over: {}", self.without_geometry);
+        if self.empty > 0 {
+            let message = format!("features and parts without geometry passed over: {}", self.empty);
             notes.push(Note::new("null-geometry", message));
         }
         if self.points > 0 {

@@ -50,10 +50,12 @@ pub(super) fn field(text: &str, comma: bool) -> Field {
         return Field::Missing;
     }
     let commas = text.bytes().filter(|&b| b == b',').count();
-    if comma && commas == 1 && !text.contains('.') {
-        if let Ok(value) = text.replacen(',', ".", 1).parse::<f64>() {
-            return Field::Number(value, Mark::Comma);
-        }
+    if comma
+        && commas == 1
+        && !text.contains('.')
+        && let Ok(value) = text.replacen(',', ".", 1).parse::<f64>()
+    {
+        return Field::Number(value, Mark::Comma);
     }
     if grouped(text) { Field::Grouped } else { Field::Text }
 }

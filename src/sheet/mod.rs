@@ -4,6 +4,7 @@
 //! mirrored in z by the caller ([`Heights`] does it itself).
 
 pub mod index;
+mod node;
 pub mod raster;
 pub mod sample;
 pub mod segment;

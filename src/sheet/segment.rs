@@ -73,7 +73,7 @@ impl Segment {
     #[inline]
     pub fn foot(&self, x: DVec2) -> f64 {
         let p = self.local(x);
-        (p.x + p.y.abs() * self.tan_phi).clamp(0.0, self.length)
+        (p.x + p.y.abs() * self.tan_phi).max(0.0).min(self.length)
     }
 
     /// Height of the segment's sheet at `x`.

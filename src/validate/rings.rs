@@ -47,7 +47,8 @@ pub(super) fn check(label: &str, chains: &[Chain], defects: &mut Defects) {
         })
     });
     let rings = Rings { segments: segments.collect(), chains, locators, label };
-    let tree = Tree::new(rings.segments.iter().map(|s| (s.a, s.b)));
+    let ends: Vec<_> = rings.segments.iter().map(|s| (s.a, s.b)).collect();
+    let tree = Tree::new(&ends);
     let mut contacts: BTreeMap<(usize, usize), Contacts> = BTreeMap::new();
     let mut seen = HashSet::new();
     let mut found = 0;

@@ -38,14 +38,14 @@ pub(super) fn chains(raw: &RawInput, options: Options, defects: &mut Defects, no
     let mut tally = Tally::default();
     let mut chains = Vec::new();
     for (i, (line, locator)) in raw.lines.iter().zip(&locators).enumerate() {
-        let before = defects.count();
+        let mut unsound = Vec::new();
         for (j, vertex) in line.vertices.iter().enumerate() {
-            check_vertex(vertex, place(line, j), locator, range, raw.source.format, defects);
+            if !check_vertex(vertex, place(line, j), locator, range, raw.source.format, defects) {
+                unsound.push(j);
+            }
         }
-        if defects.count() == before {
-            let name = line.name.clone().unwrap_or_else(|| format!("line {}", i + 1));
-            chains.extend(chain(line, name, options, locator, &mut tally, defects));
-        }
+        let name = line.name.clone().unwrap_or_else(|| format!("line {}", i + 1));
+        chains.extend(chain(line, &unsound, name, options, locator, &mut tally, defects));
     }
     tally.notes(notes);
     chains
@@ -96,6 +96,7 @@ fn is_no_data(z: f64, (lo, hi): (f64, f64)) -> bool {
     z.abs() >= NO_DATA_MAGNITUDE || (NO_DATA.contains(&z) && (z < lo - NO_DATA_GAP || z > hi + NO_DATA_GAP))
 }
 
+/// Whether a vertex is sound by itself.
 fn check_vertex(
     vertex: &RawVertex,
     place: Place,
@@ -103,7 +104,7 @@ fn check_vertex(
     range: (f64, f64),
     format: InputFormat,
     defects: &mut Defects,
-) {
+) -> bool {
     let mut push = |code: &'static str, what: &str, figures: String, help: &str| {
         defects.push(code, || Defect {
             code,
@@ -115,7 +116,8 @@ fn check_vertex(
     };
     let Some(z) = vertex.z else {
         let figures = format!("x {}, y {}, no z", show(vertex.x), show(vertex.y));
-        return push("no-elevation", "the vertex has no elevation", figures, no_elevation_help(format));
+        push("no-elevation", "the vertex has no elevation", figures, no_elevation_help(format));
+        return false;
     };
     let figures = || format!("x {}, y {}, z {}", show(vertex.x), show(vertex.y), show(z));
     let ordinates = [vertex.x, vertex.y, z];
@@ -127,7 +129,10 @@ fn check_vertex(
     } else if ordinates.iter().any(|v| v.abs() > INPUT_LIMIT) {
         let help = format!("coordinates must lie within ±{}: check the units and the columns", show(INPUT_LIMIT));
         push("too-large", "a coordinate is absurdly large", figures(), &help);
+    } else {
+        return true;
     }
+    false
 }
 
 fn same_plan(a: DVec3, b: DVec3) -> bool {
@@ -138,9 +143,10 @@ fn same(a: DVec3, b: DVec3) -> bool {
     same_plan(a, b) && (a.z - b.z).abs() <= MERGE_DISTANCE
 }
 
-/// The chain of one line; `None` if it has a defect.
+/// The chain of one line; `None` if it has a defect. The neighbours of sound vertices are checked in any case.
 fn chain(
     line: &RawLine,
+    unsound: &[usize],
     name: String,
     options: Options,
     locator: &Locator<'_>,
@@ -150,7 +156,11 @@ fn chain(
     let before = defects.count();
     let mut vertices: Vec<DVec3> = Vec::with_capacity(line.vertices.len());
     let mut places: Vec<Place> = Vec::with_capacity(line.vertices.len());
+    let mut unsound_ahead = unsound.iter().peekable();
     for (i, raw) in line.vertices.iter().enumerate() {
+        if unsound_ahead.next_if_eq(&&i).is_some() {
+            continue;
+        }
         let vertex = DVec3::new(raw.x, raw.y, raw.z.unwrap_or(f64::NAN));
         let place = place(line, i);
         match (vertices.last(), places.last()) {
@@ -190,23 +200,22 @@ fn chain(
             help: "give both the same elevation to close the ring, or move one of them in plan".into(),
         });
     }
-    if defects.count() > before {
+    if defects.count() > before || !unsound.is_empty() {
         return None;
     }
     let wanted_ring = polygon_ring || repeats_first || options.closed;
     let (needed, noun) = if wanted_ring { (3, "ring") } else { (2, "line") };
     if vertices.len() < needed {
         defects.push("too-few-vertices", || {
-            let feature = line.feature;
-            let rows = match (places.first().and_then(|p| p.row), line.vertices.last().and_then(|v| v.row)) {
-                (Some(a), Some(b)) if a != b => format!(", rows {a} to {b}"),
-                (Some(a), _) => format!(", row {a}"),
-                _ => String::new(),
+            let at = match line.vertices.len() {
+                0 => locator.line(line.feature),
+                1 => locator.vertex(place(line, 0)),
+                n => locator.pair(place(line, 0), place(line, n - 1)),
             };
             Defect {
                 code: "too-few-vertices",
                 what: format!("a {noun} needs at least {needed} distinct vertices"),
-                at: format!("{}{rows}", locator.line(feature)),
+                at,
                 figures: Some(format!("`{name}` has {} ({} given)", vertices.len(), line.vertices.len())),
                 help: "add vertices, or take the line out".into(),
             }

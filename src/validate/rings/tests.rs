@@ -103,7 +103,7 @@ fn agrees_with_comparing_every_pair() {
     };
     let mut bad = 0;
     for round in 0..400 {
-        let n = 3 + round % 40;
+        let n = 3 + (7 * round) % 200;
         // A star-shaped ring is simple; shifting one vertex across makes some of them cross. Coarse grids make touches.
         let mut points: Vec<(f64, f64)> = (0..n)
             .map(|i| {
@@ -138,4 +138,52 @@ fn agrees_with_comparing_every_pair() {
         assert_eq!(!defects(&[chain]).is_empty(), expected, "{points:?}");
     }
     assert!((50..350).contains(&bad), "{bad} of 400");
+}
+
+/// Two sound rings cross exactly if their insides overlap and each reaches outside the other; checked against the
+/// intersection matrix of the `geo` crate on coarse grids, where most contacts go through vertices and along sides.
+#[test]
+fn crossing_agrees_with_the_intersection_matrix() {
+    use geo::{Relate, coordinate_position::CoordPos, dimensions::Dimensions};
+    let mut state = 7u64;
+    let mut random = move |n: u64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) % n
+    };
+    let polygon = |points: &[(f64, f64)]| geo::Polygon::new(geo::LineString::from(points.to_vec()), vec![]);
+    let (mut crossing, mut touching, mut same) = (0, 0, 0);
+    for round in 0..100_000 {
+        let mut ring = || (0..3 + random(3)).map(|_| (random(5) as f64, random(5) as f64)).collect::<Vec<_>>();
+        let (a, mut b) = (ring(), ring());
+        if round % 50 == 0 {
+            b = a.iter().rev().copied().collect();
+            b.rotate_left(1);
+        }
+        let sound = |points: &[(f64, f64)]| {
+            let n = points.len();
+            (0..n).all(|i| points[i] != points[(i + 1) % n]) && defects(&[outer("a", 0, points)]).is_empty()
+        };
+        if !sound(&a) || !sound(&b) {
+            continue;
+        }
+        let matrix = polygon(&a).relate(&polygon(&b));
+        let meets = |p, q| matrix.get(p, q) != Dimensions::Empty;
+        let expected = meets(CoordPos::Inside, CoordPos::Inside)
+            && meets(CoordPos::Inside, CoordPos::Outside)
+            && meets(CoordPos::Outside, CoordPos::Inside);
+        let found = defects(&[outer("a", 0, &a), outer("b", 1, &b)]);
+        assert_eq!(found.contains(&"rings-cross"), expected, "{a:?} {b:?}: {found:?}");
+        assert_eq!(found.contains(&"ring-twice"), matrix.is_equal_topo(), "{a:?} {b:?}: {found:?}");
+        crossing += usize::from(expected);
+        same += usize::from(matrix.is_equal_topo());
+        touching += usize::from(!expected && meets(CoordPos::OnBoundary, CoordPos::OnBoundary));
+        // The hole of a polygon lies inside exactly if the polygon covers it.
+        let found = defects(&[outer("a", 0, &a), ring_of_hole(&b)]);
+        assert_eq!(found.is_empty(), matrix.is_covers() && !matrix.is_equal_topo(), "{a:?} {b:?}: {found:?}");
+    }
+    assert!(crossing > 1000 && touching > 1000 && same > 10, "{crossing} {touching} {same}");
+}
+
+fn ring_of_hole(points: &[(f64, f64)]) -> Chain {
+    ring("a", Role::Hole { polygon: 0 }, points)
 }

@@ -2,40 +2,79 @@
 
 use glam::DVec2;
 
-/// Bounds of a set of points in the directions x, y, x + y and x − y. Rounding of sums is monotone, so two sets that share a
-/// point never have bounds apart.
+/// An upright box.
 #[derive(Clone, Copy, Debug)]
 struct Bounds {
-    lo: [f64; 4],
-    hi: [f64; 4],
+    lo: DVec2,
+    hi: DVec2,
 }
 
 impl Bounds {
-    const EMPTY: Self = Self { lo: [f64::INFINITY; 4], hi: [f64::NEG_INFINITY; 4] };
+    const EMPTY: Self = Self { lo: DVec2::INFINITY, hi: DVec2::NEG_INFINITY };
 
-    fn with(mut self, p: DVec2) -> Self {
-        for (i, v) in [p.x, p.y, p.x + p.y, p.x - p.y].into_iter().enumerate() {
-            self.lo[i] = self.lo[i].min(v);
-            self.hi[i] = self.hi[i].max(v);
-        }
-        self
+    fn with(self, p: DVec2) -> Self {
+        Self { lo: self.lo.min(p), hi: self.hi.max(p) }
     }
 
-    fn join(mut self, other: &Self) -> Self {
-        for i in 0..4 {
-            self.lo[i] = self.lo[i].min(other.lo[i]);
-            self.hi[i] = self.hi[i].max(other.hi[i]);
-        }
-        self
+    fn join(self, other: &Self) -> Self {
+        Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
     }
 
     fn meets(&self, other: &Self) -> bool {
-        (0..4).all(|i| self.lo[i] <= other.hi[i] && other.lo[i] <= self.hi[i])
+        self.lo.cmple(other.hi).all() && other.lo.cmple(self.hi).all()
     }
 
     /// Whether the ray from `p` towards +x may meet the set.
     fn meets_ray(&self, p: DVec2) -> bool {
-        self.lo[1] <= p.y && p.y <= self.hi[1] && self.hi[0] >= p.x
+        self.lo.y <= p.y && p.y <= self.hi.y && self.hi.x >= p.x
+    }
+}
+
+/// A box along a direction of its own: long parallel strokes, whose upright boxes all overlap, stay apart in theirs.
+#[derive(Clone, Copy, Debug)]
+struct Tilted {
+    centre: DVec2,
+    along: DVec2,
+    /// Half the extent along and across, widened by the rounding error.
+    half: DVec2,
+}
+
+/// Rounding error of a projection, relative to the largest coordinate: a few units in the last place.
+const ROUNDING: f64 = 1e-15;
+
+impl Tilted {
+    /// A box about the ends of segments, along the longest of them.
+    fn around(segments: &[(DVec2, DVec2)], bounds: &Bounds) -> Self {
+        let longest = segments
+            .iter()
+            .map(|(a, b)| b - a)
+            .fold(DVec2::ZERO, |longest, d| if d.length_squared() > longest.length_squared() { d } else { longest });
+        let along = longest.normalize_or(DVec2::X);
+        let centre = 0.5 * bounds.lo + 0.5 * bounds.hi;
+        let (mut lo, mut hi) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        for p in segments.iter().flat_map(|&(a, b)| [a, b]) {
+            let d = p - centre;
+            let q = DVec2::new(along.dot(d), along.perp_dot(d));
+            (lo, hi) = (lo.min(q), hi.max(q));
+        }
+        let middle = 0.5 * (lo + hi);
+        let rounding = 16.0 * ROUNDING * bounds.lo.abs().max(bounds.hi.abs()).max_element();
+        Self {
+            centre: centre + along * middle.x + along.perp() * middle.y,
+            along,
+            half: 0.5 * (hi - lo) + DVec2::splat(rounding),
+        }
+    }
+
+    /// Whether the boxes overlap across the direction of the first.
+    fn meets_across(&self, other: &Self) -> bool {
+        let across = self.along.perp();
+        let reach = other.half.x * across.dot(other.along).abs() + other.half.y * across.dot(other.along.perp()).abs();
+        across.dot(other.centre - self.centre).abs() <= self.half.y + reach
+    }
+
+    fn meets(&self, other: &Self) -> bool {
+        self.meets_across(other) && other.meets_across(self)
     }
 }
 
@@ -48,11 +87,16 @@ pub(super) struct Tree {
     segments: Vec<Bounds>,
     /// Node `k` has the children `2k` and `2k + 1`; the leaves are the second half.
     nodes: Vec<Bounds>,
+    /// Tilted boxes of the leaves and of nodes up to [`TILTED`] segments.
+    tilted: Vec<Option<Tilted>>,
 }
 
+/// Larger nodes have no tilted box: they hold lines of many directions.
+const TILTED: usize = 256;
+
 impl Tree {
-    pub(super) fn new(segments: impl Iterator<Item = (DVec2, DVec2)>) -> Self {
-        let segments: Vec<Bounds> = segments.map(|(a, b)| Bounds::EMPTY.with(a).with(b)).collect();
+    pub(super) fn new(ends: &[(DVec2, DVec2)]) -> Self {
+        let segments: Vec<Bounds> = ends.iter().map(|&(a, b)| Bounds::EMPTY.with(a).with(b)).collect();
         let leaves = segments.len().div_ceil(LEAF).next_power_of_two();
         let mut nodes = vec![Bounds::EMPTY; 2 * leaves];
         for (leaf, run) in segments.chunks(LEAF).enumerate() {
@@ -61,7 +105,23 @@ impl Tree {
         for k in (1..leaves).rev() {
             nodes[k] = nodes[2 * k].join(&nodes[2 * k + 1]);
         }
-        Self { segments, nodes }
+        let mut tilted = vec![None; 2 * leaves];
+        let (mut size, mut first) = (LEAF, leaves);
+        while size <= TILTED && first > 0 {
+            for (i, run) in ends.chunks(size).enumerate() {
+                tilted[first + i] = Some(Tilted::around(run, &nodes[first + i]));
+            }
+            (size, first) = (2 * size, first / 2);
+        }
+        Self { segments, nodes, tilted }
+    }
+
+    fn apart(&self, m: usize, n: usize) -> bool {
+        let tilted_apart = || match (&self.tilted[m], &self.tilted[n]) {
+            (Some(m), Some(n)) => !m.meets(n),
+            _ => false,
+        };
+        !self.nodes[m].meets(&self.nodes[n]) || tilted_apart()
     }
 
     fn run(&self, node: usize) -> std::ops::Range<usize> {
@@ -74,7 +134,7 @@ impl Tree {
         let leaves = self.nodes.len() / 2;
         let mut stack = vec![(1, 1)];
         while let Some((m, n)) = stack.pop() {
-            if m != n && !self.nodes[m].meets(&self.nodes[n]) {
+            if m != n && self.apart(m, n) {
                 continue;
             }
             if m < leaves {

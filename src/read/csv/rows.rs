@@ -1,0 +1,76 @@
+//! Rows of a text file: data, comments, blank lines.
+
+use crate::read::sniff::Delimiter;
+
+/// Rows of a text with their numbers from 1; ends at CR, LF or CR LF.
+pub(super) fn rows(text: &str) -> impl Iterator<Item = (u32, &str)> {
+    let mut rest = Some(text);
+    let mut number = 0;
+    std::iter::from_fn(move || {
+        let text = rest?;
+        number += 1;
+        match text.bytes().position(|b| b == b'\n' || b == b'\r') {
+            Some(at) => {
+                let width = if text[at..].starts_with("\r\n") { 2 } else { 1 };
+                rest = Some(&text[at + width..]);
+                Some((number, &text[..at]))
+            }
+            None => {
+                rest = None;
+                Some((number, text))
+            }
+        }
+    })
+}
+
+/// Whether a row is a comment. A semicolon starts one only where it is not the delimiter.
+pub(super) fn is_comment(row: &str, delimiter: Option<Delimiter>) -> bool {
+    let row = row.trim_start();
+    if let Some(rest) = row.strip_prefix('#') {
+        // What spreadsheets write for a missing or broken value is a field, not a comment.
+        let word = rest.get(..3).unwrap_or(rest).to_ascii_uppercase();
+        return !["N/A", "NA,", "NA;", "VAL", "REF", "DIV", "NUM"].contains(&word.as_str());
+    }
+    row.starts_with("//") || row.starts_with('%') || (row.starts_with(';') && delimiter != Some(Delimiter::Semicolon))
+}
+
+pub(super) fn is_blank(row: &str, delimiter: Delimiter) -> bool {
+    row.bytes().all(|b| b == b' ' || b == delimiter.byte() || b == b'\t')
+}
+
+/// The rows with data, one per line, with row number and block of each. Runs of blanks become one tab where blanks separate.
+pub(super) fn clean(text: &str, delimiter: Delimiter, header: u32) -> (String, Vec<(u32, u32)>) {
+    let mut clean = String::with_capacity(text.len() + 1);
+    let mut places = Vec::new();
+    let mut block = 0;
+    let mut blank_before = false;
+    for (number, row) in rows(text).skip(header as usize) {
+        if is_blank(row, delimiter) {
+            blank_before = true;
+        } else if !is_comment(row, Some(delimiter)) {
+            if std::mem::take(&mut blank_before) && !places.is_empty() {
+                block += 1;
+            }
+            places.push((number, block));
+            if delimiter == Delimiter::Blanks {
+                let mut quoted = false;
+                let mut pending = false;
+                for c in row.trim().chars() {
+                    quoted ^= c == '"';
+                    if (c == ' ' || c == '\t') && !quoted {
+                        pending = true;
+                    } else {
+                        if std::mem::take(&mut pending) {
+                            clean.push('\t');
+                        }
+                        clean.push(c);
+                    }
+                }
+            } else {
+                clean.push_str(row);
+            }
+            clean.push('\n');
+        }
+    }
+    (clean, places)
+}

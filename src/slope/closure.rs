@@ -1,0 +1,611 @@
+//! Closure: the far boundary of every facet, as a list of vertices with the partner between each two.
+//!
+//! Every facet starts with the ends of its `τ` range. Between two knots with different partners there must be a vertex where
+//! the facet meets both; if a third one comes up there first, it is put between them, and so on. A vertex found by one facet
+//! is handed to the two others that meet there, so that what one facet missed another tells. Rounds run until nobody learns
+//! anything new; facets are independent within a round.
+
+use super::facet::{Crossing, END, FacetId, Kind, Lateral};
+use super::network::twin;
+use super::trim::{Sheet, Tip};
+use crate::kernel::dd::DdVec2;
+use glam::DVec3;
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+/// Vertices of one facet closer than this (length units) are one.
+pub const SNAP: f64 = 1e-6;
+
+/// Rounds of exchange before giving up; sound input needs fewer than ten.
+const MAX_ROUNDS: usize = 60;
+
+/// Steps one facet may take in a round, and per knot it starts with, before it is given up.
+const MAX_STEPS: [usize; 2] = [100, 4];
+
+/// Sectors are looked at from rulings at most this far apart (radians) before closure starts.
+const SECTOR_STEP: f64 = 0.5;
+
+/// Three facets in counter-clockwise order around a vertex, the least first. Facets meet at most once in a given order.
+pub type Key = [FacetId; 3];
+
+/// A vertex id: nodes first, then joint tips, then junctions.
+pub type VertexId = u32;
+
+/// No vertex: a knot that only says which partner is met there.
+const HINT: VertexId = VertexId::MAX;
+
+/// A place on the far boundary of a facet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Knot {
+    /// Parameter of the ruling.
+    pub tau: f64,
+    /// Vertex there.
+    pub vertex: VertexId,
+    /// Partner before it.
+    pub left: FacetId,
+    /// Partner after it.
+    pub right: FacetId,
+}
+
+/// A junction found by one facet, not numbered yet.
+#[derive(Clone, Copy, Debug)]
+struct Found {
+    knot: usize,
+    key: Key,
+    point: DVec3,
+}
+
+/// The far boundary of a facet while it is being closed.
+#[derive(Clone, Debug, Default)]
+struct Boundary {
+    knots: Vec<Knot>,
+    /// Whether it could not be closed.
+    stuck: bool,
+}
+
+/// The closed boundaries of all facets.
+pub struct Closure {
+    /// Knots of each wanted facet, from `τ = 0` to the end; empty for the others.
+    pub knots: Vec<Vec<Knot>>,
+    /// Position of each vertex id.
+    pub vertices: Vec<DVec3>,
+    /// The facets around each junction and tip, counter-clockwise; `None` for nodes.
+    pub keys: Vec<Option<Key>>,
+    /// Facets that could not be closed.
+    pub stuck: Vec<FacetId>,
+    /// Unwanted facets that a wanted one meets.
+    pub strangers: usize,
+    /// Length of the visible part of each joint.
+    pub tips: Vec<Tip>,
+}
+
+/// The key of facets `f`, then `b` and `a` counter-clockwise.
+fn key_of(f: FacetId, right: FacetId, left: FacetId) -> Key {
+    let cycle = [f, right, left];
+    let least = (0..3).min_by_key(|&i| cycle[i]).unwrap_or(0);
+    [cycle[least], cycle[(least + 1) % 3], cycle[(least + 2) % 3]]
+}
+
+/// The partners of `f` on its left and right at a vertex.
+fn sides_of(f: FacetId, key: Key) -> Option<(FacetId, FacetId)> {
+    let i = key.iter().position(|&g| g == f)?;
+    Some((key[(i + 2) % 3], key[(i + 1) % 3]))
+}
+
+/// Closes all wanted facets of a sheet. `hints` are extra rulings to look at: facet and `τ`.
+pub fn close(sheet: &Sheet, hints: &[(FacetId, f64)]) -> Closure {
+    let nodes = sheet.network.nodes.len();
+    let joints = &sheet.fans.joints;
+    let wanted = |f: FacetId| sheet.facet(f).wanted;
+    let covered: Vec<bool> = (0..nodes as u32).into_par_iter().map(|n| sheet.covered(n)).collect();
+    let tips: Vec<Tip> = joints
+        .par_iter()
+        .map(|joint| {
+            let foot = sheet.network.nodes[joint.node as usize];
+            if covered[joint.node as usize] || !(wanted(joint.left) || wanted(joint.right)) {
+                return Tip { r: 0.0, partner: END, point: foot };
+            }
+            sheet.trim_joint(joint)
+        })
+        .collect();
+    let mut state = State::new(sheet, tips);
+    let mut boundaries: Vec<Boundary> = (0..sheet.fans.facets.len() as FacetId)
+        .into_par_iter()
+        .map(|f| if wanted(f) { state.begin(f, &covered) } else { Boundary::default() })
+        .collect();
+    for &(f, tau) in hints {
+        state.insert_hint(f, tau, &mut boundaries[f as usize].knots);
+    }
+    let mut pending: Vec<(FacetId, Vec<VertexId>)> =
+        (0..boundaries.len() as FacetId).filter(|&f| wanted(f)).map(|f| (f, Vec::new())).collect();
+    for (j, tip) in state.tips.iter().enumerate() {
+        if tip.r > 0.0 && tip.partner != END && wanted(tip.partner) {
+            pending_entry(&mut pending, tip.partner).push((nodes + j) as VertexId);
+        }
+    }
+    for _ in 0..MAX_ROUNDS {
+        if pending.is_empty() {
+            break;
+        }
+        pending = state.round(&mut boundaries, pending);
+    }
+    let mut stuck: Vec<FacetId> = pending.iter().map(|p| p.0).collect();
+    stuck.extend((0..boundaries.len() as FacetId).filter(|&f| boundaries[f as usize].stuck));
+    stuck.sort_unstable();
+    stuck.dedup();
+    let strangers = boundaries
+        .iter()
+        .enumerate()
+        .flat_map(|(f, b)| b.knots.iter().map(move |k| (f as FacetId, k.left)))
+        .filter(|&(f, k)| k != END && k != twin_strip(sheet, f) && !wanted(k))
+        .count();
+    let knots = boundaries.into_iter().map(|b| b.knots).collect();
+    Closure { knots, vertices: state.vertices, keys: state.keys, stuck, strangers, tips: state.tips }
+}
+
+/// The entry of facet `f` in a list sorted by facet.
+fn pending_entry(pending: &mut Vec<(FacetId, Vec<VertexId>)>, f: FacetId) -> &mut Vec<VertexId> {
+    let at = match pending.binary_search_by_key(&f, |p| p.0) {
+        Ok(at) => at,
+        Err(at) => {
+            pending.insert(at, (f, Vec::new()));
+            at
+        }
+    };
+    &mut pending[at].1
+}
+
+/// The strip on the other side of a strip's edge: the partner of its covered stretches. Sectors have none.
+fn twin_strip(sheet: &Sheet, f: FacetId) -> FacetId {
+    match sheet.facet(f).kind {
+        Kind::Strip(h) => twin(h),
+        Kind::Sector(_) => END,
+    }
+}
+
+/// What lies between two knots with different partners.
+enum Between {
+    Junction { tau: f64, left: FacetId, right: FacetId, point: DVec3 },
+    Vertex { tau: f64, left: FacetId, right: FacetId, vertex: VertexId },
+    Hint { tau: f64, partner: FacetId },
+    Stuck,
+}
+
+struct State<'a> {
+    sheet: &'a Sheet<'a>,
+    tips: Vec<Tip>,
+    vertices: Vec<DVec3>,
+    keys: Vec<Option<Key>>,
+    ids: FxHashMap<Key, VertexId>,
+}
+
+impl<'a> State<'a> {
+    fn new(sheet: &'a Sheet<'a>, tips: Vec<Tip>) -> Self {
+        let mut vertices = sheet.network.nodes.clone();
+        let mut keys: Vec<Option<Key>> = vec![None; vertices.len()];
+        let mut ids = FxHashMap::default();
+        for (joint, tip) in sheet.fans.joints.iter().zip(&tips) {
+            let key = key_of(joint.left, joint.right, tip.partner);
+            if tip.r > 0.0 {
+                ids.insert(key, vertices.len() as VertexId);
+            }
+            keys.push((tip.r > 0.0).then_some(key));
+            vertices.push(tip.point);
+        }
+        Self { sheet, tips, vertices, keys, ids }
+    }
+
+    fn tip_vertex(&self, joint: u32) -> VertexId {
+        self.sheet.network.nodes.len() as VertexId + joint
+    }
+
+    /// The ends of a facet's range.
+    fn begin(&self, f: FacetId, covered: &[bool]) -> Boundary {
+        let facet = self.sheet.facet(f);
+        let hidden = twin_strip(self.sheet, f);
+        let ends = match facet.kind {
+            Kind::Strip(h) => [self.sheet.network.origin(h), self.sheet.network.target(h)],
+            Kind::Sector(node) => [node, node],
+        };
+        let at = |i: usize| -> (VertexId, FacetId) {
+            let node = ends[i];
+            match facet.lateral[i] {
+                _ if covered[node as usize] => (node, hidden),
+                Lateral::Hidden => (node, hidden),
+                Lateral::Crease(other) => (node, other),
+                Lateral::Joint(j) => {
+                    let tip = &self.tips[j as usize];
+                    if tip.r > 0.0 { (self.tip_vertex(j), tip.partner) } else { (node, hidden) }
+                }
+            }
+        };
+        let (first, last) = (at(0), at(1));
+        let mut knots = vec![
+            Knot { tau: 0.0, vertex: first.0, left: first.1, right: first.1 },
+            Knot { tau: facet.tau_max, vertex: last.0, left: last.1, right: last.1 },
+        ];
+        if !facet.is_strip() && !covered[ends[0] as usize] {
+            let count = (facet.tau_max / SECTOR_STEP).ceil() as usize;
+            for i in 1..count {
+                self.insert_hint(f, facet.tau_max * i as f64 / count as f64, &mut knots);
+            }
+        }
+        Boundary { knots, stuck: false }
+    }
+
+    /// Looks along ruling `τ` and notes the partner.
+    fn insert_hint(&self, f: FacetId, tau: f64, knots: &mut Vec<Knot>) {
+        let at = knots.partition_point(|k| k.tau < tau);
+        if at == 0 || at == knots.len() {
+            return;
+        }
+        let partner = self.look(f, tau);
+        knots.insert(at, Knot { tau, vertex: HINT, left: partner, right: partner });
+    }
+
+    /// The partner of ruling `τ`.
+    fn look(&self, f: FacetId, tau: f64) -> FacetId {
+        let tip = self.sheet.trim_facet(f, tau);
+        if tip.r <= 0.0 { twin_strip(self.sheet, f) } else { tip.partner }
+    }
+
+    /// One round: closes the pending facets, numbers what they found and collects who has yet to hear of it.
+    fn round(
+        &mut self,
+        boundaries: &mut [Boundary],
+        pending: Vec<(FacetId, Vec<VertexId>)>,
+    ) -> Vec<(FacetId, Vec<VertexId>)> {
+        let work: Vec<(FacetId, Vec<VertexId>, Boundary)> =
+            pending.into_iter().map(|(f, mates)| (f, mates, std::mem::take(&mut boundaries[f as usize]))).collect();
+        let this = &*self;
+        let done: Vec<(FacetId, Boundary, Vec<Found>)> = work
+            .into_par_iter()
+            .map(|(f, mates, mut boundary)| {
+                for mate in mates {
+                    this.insert_mate(f, mate, &mut boundary.knots);
+                }
+                let found = this.close_facet(f, &mut boundary);
+                (f, boundary, found)
+            })
+            .collect();
+        let mut fresh: Vec<VertexId> = Vec::new();
+        let mut finders: Vec<FacetId> = Vec::new();
+        for (f, mut boundary, found) in done {
+            for item in found {
+                let next = self.vertices.len() as VertexId;
+                let id = *self.ids.entry(item.key).or_insert(next);
+                if id == next {
+                    self.vertices.push(item.point);
+                    self.keys.push(Some(item.key));
+                    fresh.push(id);
+                    finders.push(f);
+                }
+                boundary.knots[item.knot].vertex = id;
+            }
+            boundary.knots.retain(|k| k.vertex != HINT);
+            boundaries[f as usize] = boundary;
+        }
+        let mut tell: Vec<(FacetId, VertexId)> = Vec::new();
+        for (&id, &finder) in fresh.iter().zip(&finders) {
+            for f in self.keys[id as usize].into_iter().flatten() {
+                let known = f == finder
+                    || f == END
+                    || !self.sheet.facet(f).wanted
+                    || boundaries[f as usize].knots.iter().any(|k| k.vertex == id);
+                if !known {
+                    tell.push((f, id));
+                }
+            }
+        }
+        tell.sort_unstable();
+        let mut next: Vec<(FacetId, Vec<VertexId>)> = Vec::new();
+        for (f, id) in tell {
+            match next.last_mut() {
+                Some((last, ids)) if *last == f => ids.push(id),
+                _ => next.push((f, vec![id])),
+            }
+        }
+        next
+    }
+
+    /// Puts a vertex that another facet found into the boundary of `f`, unless it stands there already.
+    fn insert_mate(&self, f: FacetId, vertex: VertexId, knots: &mut Vec<Knot>) {
+        let Some((left, right)) = self.keys[vertex as usize].and_then(|key| sides_of(f, key)) else { return };
+        let point = self.vertices[vertex as usize];
+        let facet = self.sheet.facet(f);
+        let (tau, _) = facet.parameters(point.truncate());
+        let same = |k: &Knot| k.vertex != HINT && self.vertices[k.vertex as usize].distance(point) <= SNAP;
+        if knots.iter().any(|k| k.vertex == vertex) {
+            return;
+        }
+        let tau = tau.clamp(0.0, facet.tau_max);
+        let at = knots.partition_point(|k| k.tau < tau).clamp(1, knots.len() - 1);
+        // A knot at the same place speaks for this vertex as well if the boundary is already consistent there.
+        let near = |i: usize| knots.get(i).is_some_and(&same);
+        if near(at - 1) || near(at) {
+            let consistent = |i: usize| i + 1 >= knots.len() || knots[i].right == knots[i + 1].left;
+            if consistent(at - 1) && consistent(at) && (at < 2 || consistent(at - 2)) {
+                return;
+            }
+        }
+        knots.insert(at, Knot { tau, vertex, left, right });
+    }
+
+    /// Closes the boundary of `f`; returns the junctions it found, knots numbered in the final list.
+    fn close_facet(&self, f: FacetId, boundary: &mut Boundary) -> Vec<Found> {
+        let mut found: Vec<(Key, DVec3)> = Vec::new();
+        if boundary.stuck {
+            return Vec::new();
+        }
+        let knots = &mut boundary.knots;
+        // Junctions without a number yet carry an index into `found`, counted down from the hint mark.
+        let fresh = |i: usize| HINT - 1 - i as VertexId;
+        let budget = MAX_STEPS[0] + MAX_STEPS[1] * knots.len();
+        let mut steps = 0;
+        let mut i = 0;
+        while i + 1 < knots.len() {
+            let (a, b) = (knots[i], knots[i + 1]);
+            if a.right == b.left {
+                i += 1;
+                continue;
+            }
+            steps += 1;
+            let between = if steps > budget { Between::Stuck } else { self.between(f, &a, &b) };
+            match between {
+                Between::Junction { tau, left, right, point } => {
+                    let key = key_of(f, right, left);
+                    let vertex = match self.ids.get(&key) {
+                        Some(&id) => id,
+                        None => {
+                            found.push((key, point));
+                            fresh(found.len() - 1)
+                        }
+                    };
+                    knots.insert(i + 1, Knot { tau, vertex, left, right });
+                }
+                Between::Vertex { tau, left, right, vertex } => knots.insert(i + 1, Knot { tau, vertex, left, right }),
+                Between::Hint { tau, partner } => {
+                    knots.insert(i + 1, Knot { tau, vertex: HINT, left: partner, right: partner });
+                }
+                Between::Stuck => {
+                    boundary.stuck = true;
+                    break;
+                }
+            }
+        }
+        let base = self.vertices.len();
+        let is_fresh = |v: VertexId| v != HINT && v as usize >= base && (HINT - 1 - v) as usize >= usize::MIN && (HINT - 1 - v) < found.len() as u32;
+        knots.retain(|k| k.vertex != HINT || k.left != k.right);
+        knots
+            .iter()
+            .enumerate()
+            .filter(|(_, k)| is_fresh(k.vertex))
+            .map(|(knot, k)| {
+                let (key, point) = found[(HINT - 1 - k.vertex) as usize];
+                Found { knot, key, point }
+            })
+            .collect()
+    }
+
+    /// What lies between knots `a` and `b` of facet `f`.
+    fn between(&self, f: FacetId, a: &Knot, b: &Knot) -> Between {
+        let (ka, kb) = (a.right, b.left);
+        let width = b.tau - a.tau;
+        // Neighbours across a shared ruling meet `f` at the end of that ruling.
+        if let Some(j) = self.sheet.joint_between(kb, ka)
+            && self.tips[j as usize].partner == f
+            && self.tips[j as usize].r > 0.0
+        {
+            let vertex = self.tip_vertex(j);
+            let (tau, _) = self.sheet.facet(f).parameters(self.vertices[vertex as usize].truncate());
+            return Between::Vertex { tau: tau.clamp(a.tau, b.tau), left: ka, right: kb, vertex };
+        }
+        let root = self.root(f, ka, kb, a.tau, b.tau);
+        let tau = root.unwrap_or(0.5 * (a.tau + b.tau));
+        if width > 0.0 && root.is_some() {
+            let x = self.polish(f, ka, kb, tau);
+            let plan = x.to_f64();
+            let (exact_tau, _) = self.sheet.facet(f).parameters(plan);
+            let slack = 1e-7 * (1.0 + width);
+            if plan.is_finite() && exact_tau > a.tau - slack && exact_tau < b.tau + slack {
+                let tau = exact_tau.clamp(a.tau, b.tau);
+                if let Some((neighbour, vertex)) = self.beyond(f, ka, plan, a, b) {
+                    return self.step_over(f, ka, neighbour, vertex, a, b, tau);
+                }
+                if let Some((neighbour, vertex)) = self.beyond(f, kb, plan, a, b) {
+                    return self.step_over(f, kb, neighbour, vertex, a, b, tau);
+                }
+                return match self.sheet.intruder(f, ka, kb, x) {
+                    None => {
+                        let point = plan.extend(self.sheet.height_dd(f, x).to_f64());
+                        Between::Junction { tau, left: ka, right: kb, point }
+                    }
+                    // The intruder need not be what the ruling meets first, and its plane reaches farther than its strip: look.
+                    Some(_) => self.hint_by_looking(f, a, b, tau),
+                };
+            }
+        }
+        if width <= SNAP {
+            // The knots tie: everything between them happens in one place.
+            let facet = self.sheet.facet(f);
+            let tip = self.sheet.trim_facet(f, tau);
+            let point = facet.point(tau, tip.r);
+            return Between::Junction { tau, left: ka, right: kb, point };
+        }
+        self.hint_by_looking(f, a, b, tau)
+    }
+
+    /// Looks along a ruling between two knots where the algebra gave no answer.
+    fn hint_by_looking(&self, f: FacetId, a: &Knot, b: &Knot, tau: f64) -> Between {
+        let width = b.tau - a.tau;
+        if width <= f64::EPSILON * 4.0 * (a.tau.abs() + b.tau.abs()) {
+            return Between::Stuck;
+        }
+        let inside = tau > a.tau + 0.01 * width && tau < b.tau - 0.01 * width;
+        let tau = if inside { tau } else { 0.5 * (a.tau + b.tau) };
+        Between::Hint { tau, partner: self.look(f, tau) }
+    }
+
+    /// If `x` lies beyond a shared ruling of partner `k`: the neighbour there, and the tip if it lies on `f`.
+    fn beyond(
+        &self,
+        f: FacetId,
+        k: FacetId,
+        x: glam::DVec2,
+        a: &Knot,
+        b: &Knot,
+    ) -> Option<(FacetId, Option<(f64, VertexId)>)> {
+        if k == END || k == twin_strip(self.sheet, f) {
+            return None;
+        }
+        let facet = self.sheet.facet(k);
+        let (tau, r) = facet.parameters(x);
+        let limit = 1e-9 * (1.0 + facet.tau_max);
+        if r < -limit {
+            // The plane of a strip goes on behind its edge, the strip does not.
+            return Some((k, None));
+        }
+        let end = if tau < -limit {
+            0
+        } else if tau > facet.tau_max + limit {
+            1
+        } else {
+            return None;
+        };
+        let Lateral::Joint(j) = facet.lateral[end] else { return Some((k, None)) };
+        let joint = &self.sheet.fans.joints[j as usize];
+        let neighbour = if end == 0 { joint.left } else { joint.right };
+        let tip = &self.tips[j as usize];
+        if tip.partner != f || tip.r <= 0.0 {
+            return Some((neighbour, None));
+        }
+        let vertex = self.tip_vertex(j);
+        let (tau, _) = self.sheet.facet(f).parameters(self.vertices[vertex as usize].truncate());
+        Some((neighbour, (tau > a.tau && tau < b.tau).then_some((tau, vertex))))
+    }
+
+    /// Goes from partner `k` to its neighbour over their shared ruling's end.
+    #[allow(clippy::too_many_arguments, reason = "one place, all of it needed")]
+    fn step_over(
+        &self,
+        f: FacetId,
+        k: FacetId,
+        neighbour: FacetId,
+        vertex: Option<(f64, VertexId)>,
+        a: &Knot,
+        b: &Knot,
+        tau: f64,
+    ) -> Between {
+        match vertex {
+            Some((tau, vertex)) => {
+                let (left, right) = if k == a.right { (k, neighbour) } else { (neighbour, k) };
+                // The order of the vertex decides; a tip the other way round belongs to another crossing.
+                match self.keys[vertex as usize].and_then(|key| sides_of(f, key)) {
+                    Some(sides) if sides == (left, right) => Between::Vertex { tau, left, right, vertex },
+                    _ => self.hint_by_looking(f, a, b, tau),
+                }
+            }
+            None => self.hint_by_looking(f, a, b, tau),
+        }
+    }
+
+    /// Crossing of ruling `τ` of `f` with partner `k`, so that the nearer partner has the smaller quotient. Covered stretches
+    /// (partner: the twin) count from where the other partner's crossing has reached the foot.
+    fn crossing(&self, f: FacetId, k: FacetId, tau: f64) -> Crossing {
+        let facet = self.sheet.facet(f);
+        self.sheet.crossing(facet.foot(tau), facet.ruling(tau), k)
+    }
+
+    /// Parameter between `lo` and `hi` at which `f` meets `ka` (nearer at `lo`) and `kb` (nearer at `hi`) at once.
+    fn root(&self, f: FacetId, ka: FacetId, kb: FacetId, lo: f64, hi: f64) -> Option<f64> {
+        let hidden = twin_strip(self.sheet, f);
+        let strip = self.sheet.facet(f).is_strip();
+        let excess = |tau: f64| {
+            if strip && kb == hidden {
+                return -self.crossing(f, ka, tau).num;
+            }
+            if strip && ka == hidden {
+                return self.crossing(f, kb, tau).num;
+            }
+            let (a, b) = (self.crossing(f, ka, tau), self.crossing(f, kb, tau));
+            a.num * b.den - b.num * a.den
+        };
+        bracket(excess, lo, hi)
+    }
+
+    /// The point where `f`, `ka` and `kb` have the same height, in double-double, from a first guess on ruling `τ`.
+    fn polish(&self, f: FacetId, ka: FacetId, kb: FacetId, tau: f64) -> DdVec2 {
+        const STEPS: usize = 8;
+        let facet = self.sheet.facet(f);
+        let foot = facet.foot(tau);
+        let covered = twin_strip(self.sheet, f);
+        let length = |k: FacetId| {
+            if facet.is_strip() && k == covered { 0.0 } else { self.crossing(f, k, tau).length() }
+        };
+        let (ra, rb) = (length(ka), length(kb));
+        let reach = ((foot.z - self.sheet.end) / self.sheet.k).max(0.0);
+        let r = if ra.is_finite() && rb.is_finite() { 0.5 * (ra + rb) } else { ra.min(rb) };
+        let mut x = DdVec2::from(facet.point(tau, r.min(2.0 * reach)).truncate());
+        for _ in 0..STEPS {
+            let own = self.sheet.height_dd(f, x);
+            let (fa, fb) = (own - self.sheet.height_dd(ka, x), own - self.sheet.height_dd(kb, x));
+            let gradient = self.sheet.gradient_dd(f, x);
+            let (ga, gb) =
+                ((gradient - self.sheet.gradient_dd(ka, x)).to_f64(), (gradient - self.sheet.gradient_dd(kb, x)).to_f64());
+            let det = ga.perp_dot(gb);
+            let (ra, rb) = (fa.to_f64(), fb.to_f64());
+            let step = glam::DVec2::new(ra * gb.y - rb * ga.y, rb * ga.x - ra * gb.x) / det;
+            if !step.is_finite() {
+                break;
+            }
+            x = x - DdVec2::from(step);
+            if step.abs().max_element() <= 1e-24 * (1.0 + x.to_f64().abs().max_element()) {
+                break;
+            }
+        }
+        x
+    }
+}
+
+/// A zero of `f` between `lo`, where it must not be positive, and `hi`, where it must not be negative; `None` without that
+/// change of sign. Illinois steps with bisection every fourth; ends when the bracket cannot shrink.
+fn bracket(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> Option<f64> {
+    const STEPS: usize = 100;
+    let (mut at_lo, mut at_hi) = (f(lo), f(hi));
+    if at_lo > 0.0 || at_hi < 0.0 {
+        return None;
+    }
+    if at_lo == 0.0 || at_hi == 0.0 {
+        return Some(if at_lo == 0.0 { lo } else { hi });
+    }
+    let width = hi - lo;
+    let mut last_side = 0;
+    for step in 0..STEPS {
+        let mut mid = (lo * at_hi - hi * at_lo) / (at_hi - at_lo);
+        if step % 4 == 3 || !(mid > lo && mid < hi) {
+            mid = 0.5 * (lo + hi);
+        }
+        if !(mid > lo && mid < hi) || hi - lo <= f64::EPSILON * width {
+            break;
+        }
+        let value = f(mid);
+        if value == 0.0 {
+            return Some(mid);
+        }
+        if value < 0.0 {
+            (lo, at_lo) = (mid, value);
+            if last_side == -1 {
+                at_hi *= 0.5;
+            }
+            last_side = -1;
+        } else {
+            (hi, at_hi) = (mid, value);
+            if last_side == 1 {
+                at_lo *= 0.5;
+            }
+            last_side = 1;
+        }
+    }
+    Some(0.5 * (lo + hi))
+}
+

@@ -1,0 +1,105 @@
+//! The scan plane: which levels it stops at, and where a height stands among them.
+
+/// A vertex closer to a level than this (height, length units) lies on it.
+pub const LEVEL_SNAP: f64 = 1e-6;
+
+/// Least and greatest number of levels a default interval gives.
+const COUNT: (f64, f64) = (10.0, 25.0);
+
+/// More levels than this are refused.
+pub const MAX_LEVELS: usize = 10_000;
+
+/// Position of a height among the levels: `2u` between level `u − 1` and level `u`, `2u + 1` on level `u`. Grows downwards.
+pub type Code = u32;
+
+/// Heights at which the surface is cut, falling.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Levels {
+    /// Heights of the falling sheet, descending.
+    pub heights: Vec<f64>,
+}
+
+/// A round number (1, 2 or 5 times a power of ten) that divides `range` into 10 to 25 parts.
+pub fn round_interval(range: f64) -> f64 {
+    let power = 10_f64.powf((range / COUNT.1).log10().floor());
+    let fits = |step: f64| range / step <= COUNT.1 && range / step >= COUNT.0;
+    [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * power).find(|&s| fits(s)).unwrap_or(10.0 * power)
+}
+
+impl Levels {
+    /// Whole multiples of `interval` strictly between `end` and `top`.
+    pub fn between(end: f64, top: f64, interval: f64) -> Self {
+        let mut i = ((top - LEVEL_SNAP) / interval).floor();
+        let mut heights = Vec::new();
+        while i * interval > end + LEVEL_SNAP && heights.len() <= MAX_LEVELS {
+            heights.push(i * interval);
+            i -= 1.0;
+        }
+        Self { heights }
+    }
+
+    /// Where `z` stands.
+    pub fn code(&self, z: f64) -> Code {
+        let above = self.heights.partition_point(|&c| c > z + LEVEL_SNAP);
+        let on = self.heights.get(above).is_some_and(|&c| c >= z - LEVEL_SNAP);
+        2 * above as Code + Code::from(on)
+    }
+
+    /// Indices of the levels strictly between two heights, in the order from `from` to `to`.
+    pub fn crossed(&self, from: f64, to: f64) -> Crossed {
+        let (high, low) = (from.max(to), from.min(to));
+        // Strictly below `high` and strictly above `low`.
+        let first = self.code(high).div_ceil(2) as usize;
+        let last = (self.code(low) / 2) as usize;
+        Crossed { first, last: last.max(first), down: from >= to }
+    }
+}
+
+/// A run of level indices, walked downwards or upwards.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossed {
+    first: usize,
+    last: usize,
+    down: bool,
+}
+
+impl Iterator for Crossed {
+    type Item = usize;
+
+    fn next(&mut self) -> Option<usize> {
+        if self.first >= self.last {
+            return None;
+        }
+        if self.down {
+            self.first += 1;
+            Some(self.first - 1)
+        } else {
+            self.last -= 1;
+            Some(self.last)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_and_crossings() {
+        let levels = Levels::between(-1.0, 3.0, 1.0);
+        assert_eq!(levels.heights, [2.0, 1.0, 0.0]);
+        assert_eq!([2.5, 2.0, 1.5, 0.0, -0.5].map(|z| levels.code(z)), [0, 1, 2, 5, 6]);
+        assert_eq!(levels.crossed(2.5, 0.5).collect::<Vec<_>>(), [0, 1]);
+        assert_eq!(levels.crossed(0.5, 2.5).collect::<Vec<_>>(), [1, 0]);
+        assert_eq!(levels.crossed(2.0, 1.0).count(), 0);
+        assert_eq!(levels.crossed(2.0 + 1e-7, 0.0).collect::<Vec<_>>(), [1]);
+        assert_eq!(levels.crossed(1.4, 1.6).count(), 0);
+    }
+
+    #[test]
+    fn intervals_are_round() {
+        for (range, step) in [(10.0, 1.0), (24.9, 1.0), (25.1, 2.0), (60.0, 5.0), (0.37, 0.02), (1234.0, 50.0)] {
+            assert!((round_interval(range) / step - 1.0).abs() < 1e-12, "{range}: {}", round_interval(range));
+        }
+    }
+}

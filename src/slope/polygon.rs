@@ -1,0 +1,264 @@
+//! The polygon of a strip: sliced along level lines and triangulated.
+//!
+//! All its points lie in one plane, every `τ` meets it in one stretch of ruling, and every crossing of its outline with a
+//! level is a corner. Signs are decided by the exact predicate on plan coordinates.
+
+use super::emit::PointId;
+use super::levels::Code;
+use crate::kernel::orientation::{Turn, turn};
+use glam::DVec2;
+use rustc_hash::FxHashMap;
+
+/// A corner of the outline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corner {
+    /// Mesh vertex.
+    pub id: PointId,
+    /// Parameter of its ruling.
+    pub tau: f64,
+    /// Distance from the edge along the ruling.
+    pub r: f64,
+    /// Place in plan.
+    pub plan: DVec2,
+    /// Place among the levels.
+    pub code: Code,
+    /// Whether it lies on the edge of the network.
+    pub near: bool,
+}
+
+/// Slices and triangulates outlines in one plane.
+pub struct Slice {
+    /// Direction of growing `τ` along level lines.
+    along: DVec2,
+    /// Level chords inside the polygons done so far: level and ends.
+    pub chords: Vec<(u32, [PointId; 2])>,
+}
+
+/// A run of outline edges within one band, from corner `first` to corner `last` (indices of the outline, wrapping).
+#[derive(Clone, Copy, Debug)]
+struct Chain {
+    band: Code,
+    first: usize,
+    last: usize,
+}
+
+impl Slice {
+    /// For a strip with rulings in direction `d`.
+    pub fn new(d: DVec2) -> Self {
+        Self { along: -d.perp(), chords: Vec::new() }
+    }
+
+    /// Triangulates the counter-clockwise outline `ring`, no triangle crossing a level. Says whether it could.
+    pub fn triangulate(&mut self, ring: &[Corner], out: &mut Vec<[PointId; 3]>) -> bool {
+        if ring.len() < 3 {
+            return true;
+        }
+        let n = ring.len();
+        let band = |i: usize| band_of(&ring[i % n], &ring[(i + 1) % n]);
+        let Some(start) = (0..n).find(|&i| band(i) != band(i + n - 1)) else {
+            return triangulate(ring, out);
+        };
+        let mut chains: Vec<Chain> = Vec::new();
+        for i in start..start + n {
+            match chains.last_mut() {
+                Some(chain) if chain.band == band(i) => chain.last = i + 1,
+                _ => chains.push(Chain { band: band(i), first: i, last: i + 1 }),
+            }
+        }
+        let Some(next) = self.link(ring, &chains) else { return false };
+        let mut done = vec![false; chains.len()];
+        let mut piece: Vec<Corner> = Vec::new();
+        for begin in 0..chains.len() {
+            if done[begin] {
+                continue;
+            }
+            piece.clear();
+            let mut at = begin;
+            while !done[at] {
+                done[at] = true;
+                for i in chains[at].first..=chains[at].last {
+                    let corner = ring[i % n];
+                    if piece.last().is_none_or(|p| p.id != corner.id) {
+                        piece.push(corner);
+                    }
+                }
+                at = next[at];
+            }
+            if piece.len() > 1 && piece[0].id == piece[piece.len() - 1].id {
+                piece.pop();
+            }
+            if at != begin || !triangulate(&piece, out) {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// For each chain the one that follows it around its piece, over a chord along a level.
+    fn link(&mut self, ring: &[Corner], chains: &[Chain]) -> Option<Vec<usize>> {
+        let n = ring.len();
+        // Ends of chains by band and level: (place along the level, whether the chain ends there, chain).
+        let mut ends: FxHashMap<(Code, Code), Vec<(f64, bool, usize)>> = FxHashMap::default();
+        for (c, chain) in chains.iter().enumerate() {
+            for (corner, is_end) in [(&ring[chain.first % n], false), (&ring[chain.last % n], true)] {
+                ends.entry((chain.band, corner.code)).or_default().push((corner.plan.dot(self.along), is_end, c));
+            }
+        }
+        let mut keys: Vec<(Code, Code)> = ends.keys().copied().collect();
+        keys.sort_unstable();
+        let mut next = vec![usize::MAX; chains.len()];
+        for key in keys {
+            let (band, code) = key;
+            let list = ends.get_mut(&key)?;
+            // The level above a band is nearer to the edge: it is run with growing τ, the one below against it.
+            let above = code + 1 == 2 * band;
+            let below = code == 2 * band + 1;
+            if !(above || below) {
+                return None;
+            }
+            list.sort_by(|a, b| if above { a.0.total_cmp(&b.0) } else { b.0.total_cmp(&a.0) }.then(b.1.cmp(&a.1)));
+            for pair in list.chunks(2) {
+                let [from, to] = pair else { return None };
+                if !from.1 || to.1 {
+                    return None;
+                }
+                next[from.2] = to.2;
+                let chord = [ring[chains[from.2].last % n].id, ring[chains[to.2].first % n].id];
+                if below && chord[0] != chord[1] {
+                    self.chords.push((code / 2, chord));
+                }
+            }
+        }
+        next.iter().all(|&c| c != usize::MAX).then_some(next)
+    }
+}
+
+/// The band an outline edge lies in. Along a level, an edge of the network bounds what is below it, any other edge what is
+/// above.
+fn band_of(a: &Corner, b: &Corner) -> Code {
+    if a.code == b.code && a.code % 2 == 1 {
+        if a.near && b.near { a.code.div_ceil(2) } else { a.code / 2 }
+    } else {
+        a.code.min(b.code).div_ceil(2)
+    }
+}
+
+/// Triangulates a polygon that is monotone in `(τ, r)`; falls back to clipping ears.
+fn triangulate(ring: &[Corner], out: &mut Vec<[PointId; 3]>) -> bool {
+    let positive = |a: &Corner, b: &Corner, c: &Corner| turn(a.plan, b.plan, c.plan) == Turn::Left;
+    match ring {
+        [] | [_] | [_, _] => true,
+        [a, b, c] => {
+            out.push([a.id, b.id, c.id]);
+            positive(a, b, c)
+        }
+        [a, b, c, d] => {
+            let first = positive(a, b, c) && positive(a, c, d);
+            let second = positive(a, b, d) && positive(b, c, d);
+            let shorter = a.plan.distance_squared(c.plan) <= b.plan.distance_squared(d.plan);
+            if first && (shorter || !second) {
+                out.extend([[a.id, b.id, c.id], [a.id, c.id, d.id]]);
+            } else if second {
+                out.extend([[a.id, b.id, d.id], [b.id, c.id, d.id]]);
+            } else {
+                return false;
+            }
+            true
+        }
+        _ => {
+            let before = out.len();
+            if sweep(ring, out) {
+                return true;
+            }
+            out.truncate(before);
+            clip_ears(ring, out)
+        }
+    }
+}
+
+/// Order of the sweep: along `τ`, outwards where that ties.
+fn before(a: &Corner, b: &Corner) -> bool {
+    (a.tau, a.r) < (b.tau, b.r)
+}
+
+/// Garey–Johnson–Preparata–Tarjan sweep over a monotone polygon. False if a triangle would not be counter-clockwise.
+fn sweep(ring: &[Corner], out: &mut Vec<[PointId; 3]>) -> bool {
+    let n = ring.len();
+    let (mut low, mut high) = (0, 0);
+    for i in 1..n {
+        if before(&ring[i], &ring[low]) {
+            low = i;
+        }
+        if before(&ring[high], &ring[i]) {
+            high = i;
+        }
+    }
+    // Both chains from the first to the last corner; the near one runs counter-clockwise.
+    let mut order: Vec<(usize, bool)> = Vec::with_capacity(n);
+    let (mut near, mut far) = ((low + 1) % n, (low + n - 1) % n);
+    order.push((low, true));
+    while near != high || far != high {
+        if far == high || (near != high && !before(&ring[far], &ring[near])) {
+            order.push((near, true));
+            near = (near + 1) % n;
+        } else {
+            order.push((far, false));
+            far = (far + n - 1) % n;
+        }
+    }
+    order.push((high, false));
+    let start = out.len();
+    let mut push = |a: usize, b: usize, c: usize, is_near: bool| {
+        let [a, b, c] = if is_near { [a, b, c] } else { [a, c, b] };
+        let positive = turn(ring[a].plan, ring[b].plan, ring[c].plan) == Turn::Left;
+        if positive {
+            out.push([ring[a].id, ring[b].id, ring[c].id]);
+        }
+        positive
+    };
+    let mut stack = vec![order[0], order[1]];
+    for (step, &(v, v_near)) in order.iter().enumerate().skip(2) {
+        let top_near = stack[stack.len() - 1].1;
+        // The last corner ends both chains: it goes on with the one on the stack.
+        let v_near = if step + 1 == n { top_near } else { v_near };
+        if v_near != top_near {
+            for pair in stack.windows(2) {
+                push(pair[0].0, pair[1].0, v, top_near);
+            }
+            let top = stack[stack.len() - 1];
+            stack.clear();
+            stack.extend([top, (v, v_near)]);
+        } else {
+            while let [.., a, b] = stack[..] {
+                if !push(a.0, b.0, v, v_near) {
+                    break;
+                }
+                stack.pop();
+            }
+            stack.push((v, v_near));
+        }
+    }
+    out.len() - start == n - 2
+}
+
+/// Ear clipping, quadratic; for outlines that rounding has made slightly unmonotone.
+fn clip_ears(ring: &[Corner], out: &mut Vec<[PointId; 3]>) -> bool {
+    let mut left: Vec<usize> = (0..ring.len()).collect();
+    let plan = |i: usize| ring[i].plan;
+    while left.len() > 3 {
+        let n = left.len();
+        let ear = (0..n).find(|&i| {
+            let [a, b, c] = [left[(i + n - 1) % n], left[i], left[(i + 1) % n]];
+            turn(plan(a), plan(b), plan(c)) == Turn::Left
+                && left.iter().all(|&p| {
+                    [a, b, c].contains(&p)
+                        || [(a, b), (b, c), (c, a)].iter().any(|&(s, t)| turn(plan(s), plan(t), plan(p)) == Turn::Right)
+                })
+        });
+        let Some(i) = ear else { return false };
+        out.push([left[(i + n - 1) % n], left[i], left[(i + 1) % n]].map(|p| ring[p].id));
+        left.remove(i);
+    }
+    out.push([left[0], left[1], left[2]].map(|p| ring[p].id));
+    turn(plan(left[0]), plan(left[1]), plan(left[2])) == Turn::Left
+}
