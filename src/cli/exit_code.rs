@@ -54,3 +54,38 @@ impl From<Code> for ExitCode {
         Self::from(code as u8)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Defects;
+    use crate::pipeline::{BuriedError, DesignError};
+    use crate::write::{EncodeError, Target, WriteError};
+
+    fn code(error: impl Into<Error>) -> Code {
+        Code::of(&anyhow::Error::new(error.into()))
+    }
+
+    #[test]
+    fn failures_have_their_codes() {
+        assert_eq!(code(ReadError::StdinFormat), Code::Usage);
+        assert_eq!(code(ReadError::UnknownFormat { label: "a".into() }), Code::Usage);
+        assert_eq!(code(ReadError::Open { label: "a".into(), cause: std::io::ErrorKind::NotFound.into() }), Code::Input);
+        assert_eq!(code(ReadError::Records(Defects::default())), Code::Input);
+        assert_eq!(code(Defects::default()), Code::Work);
+        assert_eq!(code(DesignError::TooFar { label: "a".into(), reach: 1.0, height: 1.0 }), Code::Work);
+        assert_eq!(code(BuriedError { label: "a".into(), stretches: Vec::new() }), Code::Work);
+        assert_eq!(code(SurfaceError::Cancelled), Code::Interrupted);
+        assert_eq!(code(Error::Certificate { label: "a".into(), checks: Vec::new() }), Code::Check);
+        assert_eq!(code(WriteError::IsFolder(Target::Stdout)), Code::Usage);
+        let cause = EncodeError::ReportNotFinite("a".into());
+        assert_eq!(code(WriteError::Write { target: Target::Stdout, cause }), Code::Output);
+        assert_eq!(Code::of(&anyhow::anyhow!("the threads could not be started")), Code::Work);
+    }
+
+    #[test]
+    fn the_numbers_do_not_change() {
+        let codes = [Code::Done, Code::Work, Code::Usage, Code::Input, Code::Output, Code::Check, Code::Interrupted];
+        assert_eq!(codes.map(|code| code as u8), [0, 1, 2, 3, 4, 5, 130]);
+    }
+}

@@ -21,7 +21,7 @@ pub enum Error {
     #[error(transparent)]
     Design(#[from] DesignError),
     /// The engine refused.
-    #[error("{0}")]
+    #[error(transparent)]
     Surface(#[from] SurfaceError),
     /// Stretches of the line are buried, and that was not to be.
     #[error(transparent)]

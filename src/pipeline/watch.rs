@@ -83,3 +83,39 @@ impl Watch for Stopwatch<'_> {
         self.observer.cancelled()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Nobody;
+
+    impl Watch for Nobody {
+        fn stage(&self, _: &'static str) {}
+    }
+
+    impl Observer for Nobody {
+        fn note(&self, _: &Note) {}
+    }
+
+    #[test]
+    fn time_is_given_to_stages() {
+        const LONG: Duration = Duration::from_millis(20);
+        let watch = Stopwatch::new(&Nobody);
+        for (name, time) in [("a", LONG), ("b", Duration::ZERO), ("a", LONG), ("c", Duration::ZERO)] {
+            watch.stage_of(name);
+            std::thread::sleep(time);
+        }
+        let [a, all, none] = [watch.seconds(|name| name == "a"), watch.seconds(|_| true), watch.seconds(|_| false)];
+        assert!(a >= 2.0 * LONG.as_secs_f64(), "{a}");
+        assert!(all >= a && watch.total() >= all && none == 0.0);
+    }
+
+    #[test]
+    fn notes_are_kept_in_order() {
+        let watch = Stopwatch::new(&Nobody);
+        let notes = [Note::new("a", "first"), Note::new("b", "second")];
+        notes.iter().for_each(|note| watch.note(note));
+        assert_eq!(watch.notes(), notes);
+    }
+}
