@@ -35,7 +35,7 @@ pub(super) const AFTER_SAMPLE: &str = "\
 Examples:
   slopegen sample road.geojson --slope 1:1.5 --at points.csv -o heights.csv
   slopegen sample road.geojson --slope 1:1.5 --raster road.asc --cell 0.5
-  slopegen sample pit.csv --closed --slope 1:1 --raster pit.asc --cell 1 --box 500300,5400500,500400,5400600
+  slopegen sample pit.csv --closed --slope 1:1 --raster pit.asc --cell 1 --box 500290,5400420,500390,5400500
   echo 500100,5400200 | slopegen sample road.geojson --slope 1:1.5 --at - --at-order xy
 
 Heights are those of the closed form of the given line, on both sides of it and as far as you ask: nothing is simplified.";
