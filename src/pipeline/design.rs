@@ -1,5 +1,9 @@
 //! What is wanted and the line together: the design, or why they do not fit.
 
+mod error;
+
+pub use error::DesignError;
+
 use crate::model::{Design, Extent, Line, Note, Role, Sheet, Side, Slope};
 
 /// How far beyond the lowest (highest) vertex a slope goes for which no end was given, in the length unit.
@@ -8,6 +12,12 @@ pub const DEFAULT_REACH: f64 = 10.0;
 /// Most level curves of one surface. A mesh has vertices on each of them all the way round: more than this is a slip of the
 /// keyboard, and would fill the memory before anyone can look at it.
 pub const MOST_LEVELS: f64 = 10_000.0;
+
+/// Least distance of level curves in height, in the length unit: closer ones are one among the errors of coordinates.
+pub const LEAST_INTERVAL: f64 = 1e-5;
+
+/// Least height of a slope, in the length unit: one less high is the line itself.
+pub const LEAST_DEPTH: f64 = 1e-4;
 
 /// Furthest a slope may reach, in plan and in height, in the length unit: beyond it the line is a dot, and coordinates lose
 /// their digits.
@@ -34,94 +44,6 @@ pub struct Wishes {
     pub interval: Option<f64>,
     /// Bound for the height error; positive.
     pub tolerance: f64,
-}
-
-/// Why a line and what is wanted do not go together.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum DesignError {
-    /// The slope would end before it begins.
-    #[error(
-        "the slope would end before it begins\n  --> {label}\n   = {}; `--to-elevation` {end}\n   = help: {}",
-        line_against(*.sheet, *.nearest), beyond(*.sheet, *.nearest)
-    )]
-    WrongSide {
-        /// The input.
-        label: String,
-        /// Which sheet.
-        sheet: Sheet,
-        /// Highest (lowest, for the rising sheet) elevation of the line.
-        nearest: f64,
-        /// The end asked for.
-        end: f64,
-    },
-    /// Inside or outside of something that is no ring.
-    #[error(
-        "`--side {side}` needs rings, and `{chain}` is open\n  --> {at}\n   \
-         = help: ask for `left`, `right` or `both`, or close the line with `--closed`"
-    )]
-    OpenLine {
-        /// `inside` or `outside`.
-        side: &'static str,
-        /// The first open chain.
-        chain: String,
-        /// Where it stands.
-        at: String,
-    },
-    /// More level curves than [`MOST_LEVELS`].
-    #[error(
-        "an interval of {interval} gives too many level curves\n  --> {label}\n   = {height} from the highest to the lowest; at \
-         most {MOST_LEVELS} level curves\n   = help: give `--interval {smallest}` or more"
-    )]
-    TooManyLevels {
-        /// The input.
-        label: String,
-        /// The interval asked for.
-        interval: f64,
-        /// Height between the highest and the lowest point of the surface.
-        height: f64,
-        /// Smallest interval that is accepted.
-        smallest: f64,
-    },
-    /// Further than [`FURTHEST_REACH`].
-    #[error(
-        "the slope would reach too far\n  --> {label}\n   = {reach:.0} in plan and {height:.0} in height, against a limit of \
-         {FURTHEST_REACH:.0}\n   = help: end it sooner"
-    )]
-    TooFar {
-        /// The input.
-        label: String,
-        /// Plan distance.
-        reach: f64,
-        /// Height.
-        height: f64,
-    },
-    /// More than [`MOST_ARC_POINTS`].
-    #[error(
-        "the surface would have too many points\n  --> {label}\n   = about {points:.0e} round a single corner, against a limit of \
-         {MOST_ARC_POINTS:.0e}\n   = help: raise `--tolerance` ({tolerance}) or `--interval`, or end the slope sooner"
-    )]
-    TooFine {
-        /// The input.
-        label: String,
-        /// Points expected.
-        points: f64,
-        /// The tolerance asked for.
-        tolerance: f64,
-    },
-}
-
-fn line_against(sheet: Sheet, nearest: f64) -> String {
-    match sheet {
-        Sheet::Falling => format!("highest vertex at {nearest}"),
-        Sheet::Rising => format!("lowest vertex at {nearest}"),
-    }
-}
-
-fn beyond(sheet: Sheet, nearest: f64) -> String {
-    match sheet {
-        Sheet::Falling => format!("a falling slope ends below {nearest}; for one that rises give `--direction up`"),
-        Sheet::Rising => format!("a rising slope ends above {nearest}; for one that falls give `--direction down`"),
-    }
 }
 
 impl Wishes {
@@ -158,14 +80,22 @@ impl Wishes {
         if let Extent::Elevation(end) = extent {
             self.check_end(line, label, end, notes)?;
         }
+        if deepest < LEAST_DEPTH {
+            return Err(DesignError::TooLow { label: label.to_owned(), depth: deepest });
+        }
         // Along the ruling, which is the shortest way: no ruling is longer in plan.
         let reach = deepest / k;
         if reach.max(deepest) > FURTHEST_REACH {
             return Err(DesignError::TooFar { label: label.to_owned(), reach, height: deepest });
         }
-        if let Some(interval) = self.interval.filter(|interval| height / interval > MOST_LEVELS) {
+        if let Some(interval) = self.interval.filter(|&interval| height / interval > MOST_LEVELS || interval < LEAST_INTERVAL) {
             let smallest = smallest_interval(height);
-            return Err(DesignError::TooManyLevels { label: label.to_owned(), interval, height: millimetres(height), smallest });
+            return Err(DesignError::IntervalTooSmall {
+                label: label.to_owned(),
+                interval,
+                height: millimetres(height),
+                smallest,
+            });
         }
         let levels = self.interval.map_or(CHOSEN_LEVELS, |interval| height / interval);
         let points = levels * arc_points(deepest, self.tolerance);
@@ -244,15 +174,16 @@ fn millimetres(value: f64) -> f64 {
     if (rounded - value).abs() <= 1.0 / MILLI { rounded } else { value }
 }
 
-/// The smallest interval of two digits that gives no more than [`MOST_LEVELS`] level curves over a height.
+/// The smallest interval of two digits that gives no more than [`MOST_LEVELS`] level curves over a height, but
+/// [`LEAST_INTERVAL`] at least.
 fn smallest_interval(height: f64) -> f64 {
-    let least = height / MOST_LEVELS;
+    let least = (height / MOST_LEVELS).max(LEAST_INTERVAL);
     let exponent = least.log10().floor() as i32 - 1;
     // Through the decimal text, so that the suggestion is a number of two digits.
-    let mut digits = (least / 10_f64.powi(exponent)).ceil();
+    let mut digits = (least / 10_f64.powi(exponent)).floor();
     loop {
         let interval: f64 = format!("{digits}e{exponent}").parse().unwrap_or(least * 2.0);
-        if height / interval <= MOST_LEVELS || digits > 1000.0 {
+        if (interval >= LEAST_INTERVAL && height / interval <= MOST_LEVELS) || digits > 1000.0 {
             return interval;
         }
         digits += 1.0;
@@ -328,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn too_many_levels() {
+    fn small_intervals() {
         // 12.3 high (402.3 to 390): at most 10 000 levels are 0.00123 apart or more.
         let with = |interval| {
             let wishes = Wishes { interval: Some(interval), extent: Some(Extent::Elevation(390.0)), ..wishes() };
@@ -336,13 +267,22 @@ mod tests {
         };
         assert_eq!(
             with(1e-9).unwrap_err().to_string(),
-            "an interval of 0.000000001 gives too many level curves\n  --> a.csv\n   = 12.3 from the highest to the lowest; at \
-             most 10000 level curves\n   = help: give `--interval 0.0013` or more"
+            "the interval 0.000000001 is too small\n  --> a.csv\n   = 12.3 from the highest to the lowest; at most 10000 level \
+             curves, at least 0.00001 apart\n   = help: give `--interval 0.0013` or more"
         );
         assert!(with(0.0013).is_ok() && with(0.00122).is_err() && with(5e-324).is_err() && with(1e300).is_ok());
-        for height in [1e-3, 0.123, 1.0, 99_999.0, 1e5, 1e9, 3e9] {
+        assert_eq!(smallest_interval(1e-3), LEAST_INTERVAL);
+        for height in [0.1, 0.123, 1.0, 99_999.0, 1e5, 1e9, 3e9] {
             let interval = smallest_interval(height);
             assert!(height / interval <= MOST_LEVELS && interval <= height / MOST_LEVELS * 1.1 + 1e-300, "{height}: {interval}");
+        }
+    }
+
+    #[test]
+    fn too_low() {
+        for extent in [Extent::Height(1e-5), Extent::Distance(1e-4), Extent::Elevation(402.299_99)] {
+            let error = Wishes { extent: Some(extent), ..wishes() }.settle(&line(OPEN), "a", &mut Vec::new()).unwrap_err();
+            assert!(matches!(error, DesignError::TooLow { .. }), "{error}");
         }
     }
 

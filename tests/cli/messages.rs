@@ -71,8 +71,8 @@ fn what_the_line_forbids() {
     refused(
         "build road.geojson --slope 1:1.5 --interval 1e-9",
         1,
-        "error: an interval of 0.000000001 gives too many level curves\n  --> road.geojson\n   \
-         = 23.3 from the highest to the lowest; at most 10000 level curves\n   = help: give `--interval 0.0024` or more",
+        "error: the interval 0.000000001 is too small\n  --> road.geojson\n   = 23.3 from the highest to the lowest; at most \
+         10000 level curves, at least 0.00001 apart\n   = help: give `--interval 0.0024` or more",
     );
     refused(
         "build road.geojson --slope 1:1.5 --to-elevation 500",
