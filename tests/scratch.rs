@@ -24,7 +24,7 @@ fn run(name:&str, line:&Line, k:f64, side:Side, depth:f64, eps:f64)->(usize,usiz
   let index=trim::index_of(&net,k);
   let t1=std::time::Instant::now();
   let sheet=trim::Sheet::new(&net,&fans,&index,k,line.elevation_range().0-depth);
-  let c=closure::close(&sheet,&[]);
+  let c=closure::close(&sheet,closure::Scope::Wanted,&[]);
   let t2=std::time::Instant::now();
   let arcs=Arcs::new(&sheet,&c);
   let t3=std::time::Instant::now();

@@ -244,7 +244,7 @@ impl<'a> Shared<'a> {
             let range = self.arc_start[piece.arc as usize]..self.arc_start[piece.arc as usize + 1];
             let next = if arc.partner == END {
                 Stretch::End
-            } else if arc.paired {
+            } else if self.sheet.facet(arc.owner).wanted && self.sheet.facet(arc.partner).wanted {
                 Stretch::Crease
             } else {
                 Stretch::Open
