@@ -27,7 +27,7 @@ doc:
 
 # Figures of speed; see docs/performance.md
 bench:
-    cargo bench --bench stages
+    cargo bench
 
 # The picture of the README, from a fixture
 picture:
