@@ -5,11 +5,13 @@
 
 pub mod cli;
 pub mod kernel;
+pub mod mesh;
 pub mod model;
 pub mod pipeline;
 pub mod read;
 pub mod report;
 pub mod sheet;
 pub mod slope;
+pub mod surface;
 pub mod validate;
 pub mod write;

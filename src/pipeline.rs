@@ -2,7 +2,6 @@
 //! that can be refused without the input has been refused before ([`crate::cli`] does it for the command line).
 
 pub mod build;
-pub mod certificate;
 pub mod design;
 pub mod error;
 mod figures;
@@ -10,7 +9,6 @@ pub mod sample;
 mod watch;
 
 pub use build::{BuildJob, Built, build};
-pub use certificate::{FailedCheck, failed_checks};
 pub use design::{DesignError, MOST_LEVELS, Wishes};
 pub use error::{BuriedError, Error};
 pub use sample::{Area, Lattice, MOST_NODES, SampleJob, Sampled, Where, lattice, sample};

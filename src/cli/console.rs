@@ -3,7 +3,7 @@
 use super::args::Running;
 use crate::model::Note;
 use crate::pipeline::{Observer, WRITING};
-use crate::slope::Watch;
+use crate::surface::Watch;
 use crate::write::Target;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal as _, Write as _};

@@ -3,7 +3,7 @@
 use super::job::UsageErrors;
 use crate::pipeline::Error;
 use crate::read::ReadError;
-use crate::slope::SurfaceError;
+use crate::surface::SurfaceError;
 use std::process::ExitCode;
 
 /// What the process exits with. The numbers are documented in `docs/cli.md` and do not change.
@@ -37,9 +37,12 @@ impl Code {
             Some(Error::Read(_)) => Self::Input,
             Some(Error::Write(error)) if error.is_usage() => Self::Usage,
             Some(Error::Write(_)) => Self::Output,
-            Some(Error::Certificate { .. }) => Self::Check,
-            Some(Error::Surface(SurfaceError::Cancelled)) => Self::Interrupted,
-            Some(Error::Invalid(_) | Error::Design(_) | Error::Surface(_) | Error::Buried(_)) | None => Self::Work,
+            Some(Error::Surface { cause, .. }) => match cause {
+                SurfaceError::Cancelled => Self::Interrupted,
+                SurfaceError::Unclosed { .. } | SurfaceError::Unsound { .. } => Self::Check,
+                _ => Self::Work,
+            },
+            Some(Error::Invalid(_) | Error::Design(_) | Error::Buried(_)) | None => Self::Work,
         }
     }
 
@@ -75,8 +78,10 @@ mod tests {
         assert_eq!(code(Defects::default()), Code::Work);
         assert_eq!(code(DesignError::TooFar { label: "a".into(), reach: 1.0, height: 1.0 }), Code::Work);
         assert_eq!(code(BuriedError { label: "a".into(), stretches: Vec::new() }), Code::Work);
-        assert_eq!(code(SurfaceError::Cancelled), Code::Interrupted);
-        assert_eq!(code(Error::Certificate { label: "a".into(), checks: Vec::new() }), Code::Check);
+        let surface = |cause| code(Error::Surface { label: "a".into(), cause });
+        assert_eq!(surface(SurfaceError::Cancelled), Code::Interrupted);
+        assert_eq!(surface(SurfaceError::NoSide), Code::Work);
+        assert_eq!(surface(SurfaceError::Unsound { what: "a".into() }), Code::Check);
         assert_eq!(code(WriteError::IsFolder(Target::Stdout)), Code::Usage);
         let cause = EncodeError::ReportNotFinite("a".into());
         assert_eq!(code(WriteError::Write { target: Target::Stdout, cause }), Code::Output);

@@ -1,9 +1,9 @@
 //! The main job: a line to a surface, its files and its report.
 
 use super::watch::{CHECKING, Observer, READING, Stopwatch, WRITING};
-use super::{BuriedError, Error, LineInput, Wishes, certificate, check_steepness, figures, read_line};
+use super::{BuriedError, Error, LineInput, Wishes, check_steepness, figures, read_line};
 use crate::report::{Report, ReportFormat};
-use crate::slope;
+use crate::surface;
 use crate::write::{Delivery, MeshFormat, Outputs, Target, WriteError, write_lines};
 
 /// A surface to be built, and where to put it.
@@ -56,13 +56,10 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     let design = job.wishes.settle(&line, &source.label, &mut chosen)?;
     chosen.iter().for_each(|note| watch.note(note));
     check_steepness(&line, &source, design.slope)?;
-    let surface = slope::build(&line, &design, job.reference, &watch)?;
+    let surface = surface::build(&line, &design, job.reference, &watch)
+        .map_err(|cause| Error::Surface { label: source.label.clone(), cause })?;
     surface.notes.iter().for_each(|note| watch.note(note));
     let buried = figures::buried(&line, &surface);
-    let checks = certificate::failed_checks(&figures::certificate(&surface), design.tolerance);
-    if !checks.is_empty() {
-        return Err(Error::Certificate { label: source.label, checks });
-    }
     if job.strict && !buried.is_empty() {
         return Err(BuriedError { label: source.label, stretches: buried }.into());
     }

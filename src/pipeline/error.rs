@@ -1,10 +1,10 @@
 //! Why a job was not done.
 
-use super::{DesignError, FailedCheck};
+use super::DesignError;
 use crate::model::{Defects, Slope};
 use crate::read::ReadError;
 use crate::report::BuriedStretch;
-use crate::slope::SurfaceError;
+use crate::surface::SurfaceError;
 use crate::write::WriteError;
 use std::fmt;
 
@@ -21,31 +21,28 @@ pub enum Error {
     #[error(transparent)]
     Design(#[from] DesignError),
     /// The engine refused.
-    #[error(transparent)]
-    Surface(#[from] SurfaceError),
+    #[error("{}", placed(.label, .cause))]
+    Surface {
+        /// The input.
+        label: String,
+        /// Why.
+        cause: SurfaceError,
+    },
     /// Stretches of the line are buried, and that was not to be.
     #[error(transparent)]
     Buried(#[from] BuriedError),
-    /// The mesh did not pass its checks.
-    #[error("{}", failed(.label, .checks))]
-    Certificate {
-        /// The input.
-        label: String,
-        /// The checks it did not pass.
-        checks: Vec<FailedCheck>,
-    },
     /// An output could not be opened or written.
     #[error(transparent)]
     Write(#[from] WriteError),
 }
 
-fn failed(label: &str, checks: &[FailedCheck]) -> String {
-    let mut text = format!("the mesh did not pass its checks, and nothing was written\n  --> {label}");
-    for check in checks {
-        text.push_str(&format!("\n   = {check}"));
+/// The engine's message with the input, which it does not know, below its first line.
+fn placed(label: &str, cause: &SurfaceError) -> String {
+    let message = cause.to_string();
+    match message.split_once('\n') {
+        Some((what, rest)) => format!("{what}\n  --> {label}\n{rest}"),
+        None => format!("{message}\n  --> {label}"),
     }
-    text.push_str("\n   = help: try a `--tolerance` three times larger or smaller, and please report the input");
-    text
 }
 
 /// All buried stretches of a line that was to have none.

@@ -6,7 +6,7 @@ use crate::report::{
     Balance, BuriedStretch, Certificate, Depths, Detail, Input, LineFigures, Reference, Report, SCHEMA, Slopes, SurfaceFigures,
     Timing, Tool, Units, Volumes, Warning,
 };
-use crate::slope::Surface;
+use crate::surface::Surface;
 use std::collections::BTreeMap;
 
 /// The report of a run; its times are still to be filled in.
@@ -41,7 +41,7 @@ pub(super) fn report(line: &Line, source: &Source, design: &Design, surface: &Su
             vertices: surface.tin.vertices.len(),
             triangles: surface.tin.triangles.len(),
             plan_area: areas.plan,
-            slope_area: areas.slope,
+            slope_area: areas.fill_slope + areas.cut_slope,
             fill_slope_area: areas.fill_slope,
             cut_slope_area: areas.cut_slope,
             platform_area: areas.platform,
@@ -100,7 +100,7 @@ fn input(source: &Source) -> Input {
 /// Buried stretches with the names of their chains.
 pub(super) fn buried(line: &Line, surface: &Surface) -> Vec<BuriedStretch> {
     let name = |chain: usize| line.chains.get(chain).map(|chain| chain.name.clone()).unwrap_or_default();
-    let stretch = |b: &crate::slope::Buried| BuriedStretch {
+    let stretch = |b: &crate::surface::Buried| BuriedStretch {
         chain: name(b.chain),
         from: b.from,
         to: b.to,
@@ -130,7 +130,7 @@ fn line_figures(line: &Line, surface: &Surface, buried: Vec<BuriedStretch>) -> L
 }
 
 /// The engine's certificate as reported.
-pub(super) fn certificate(surface: &Surface) -> Certificate {
+fn certificate(surface: &Surface) -> Certificate {
     let c = &surface.certificate;
     Certificate {
         paired: c.paired,

@@ -1,7 +1,7 @@
 //! Whoever looks on while a job runs.
 
 use crate::model::Note;
-use crate::slope::Watch;
+use crate::surface::Watch;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 

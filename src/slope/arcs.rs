@@ -110,7 +110,7 @@ impl Arcs {
         let unpaired = (0..arcs.len() as ArcId)
             .filter(|&i| {
                 let arc = &arcs[i as usize];
-                !arc.paired && arc.partner != END && sheet.facet(arc.partner).wanted
+                !arc.paired && arc.partner != END && !closure.knots[arc.partner as usize].is_empty()
             })
             .collect();
         Self { arcs, pieces, unpaired, merged: Vec::new() }

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 /// Vertices of one facet closer than this (length units) are one.
-pub const SNAP: f64 = 1e-6;
+pub const SNAP: f64 = 1e-8;
 
 /// Rounds of exchange before giving up; sound input needs fewer than ten.
 const MAX_ROUNDS: usize = 60;
@@ -65,7 +65,7 @@ struct Boundary {
 
 /// The closed boundaries of all facets.
 pub struct Closure {
-    /// Knots of each wanted facet, from `τ = 0` to the end; empty for the others.
+    /// Knots of each closed facet, from `τ = 0` to the end; empty for the others.
     pub knots: Vec<Vec<Knot>>,
     /// Position of each vertex id.
     pub vertices: Vec<DVec3>,
@@ -73,7 +73,7 @@ pub struct Closure {
     pub keys: Vec<Option<Key>>,
     /// Facets that could not be closed.
     pub stuck: Vec<FacetId>,
-    /// Unwanted facets that a wanted one meets.
+    /// How often a closed facet meets one that is not closed.
     pub strangers: usize,
     /// Length of the visible part of each joint.
     pub tips: Vec<Tip>,
@@ -92,11 +92,20 @@ fn sides_of(f: FacetId, key: Key) -> Option<(FacetId, FacetId)> {
     Some((key[(i + 2) % 3], key[(i + 1) % 3]))
 }
 
-/// Closes all wanted facets of a sheet. `hints` are extra rulings to look at: facet and `τ`.
-pub fn close(sheet: &Sheet, hints: &[(FacetId, f64)]) -> Closure {
+/// Which facets are closed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// Those that are wanted: enough where they never meet another.
+    Wanted,
+    /// All.
+    All,
+}
+
+/// Closes the facets of a sheet. `hints` are extra rulings to look at: facet and `τ`.
+pub fn close(sheet: &Sheet, scope: Scope, hints: &[(FacetId, f64)]) -> Closure {
     let nodes = sheet.network.nodes.len();
     let joints = &sheet.fans.joints;
-    let wanted = |f: FacetId| sheet.facet(f).wanted;
+    let wanted = |f: FacetId| scope == Scope::All || sheet.facet(f).wanted;
     let covered: Vec<bool> = (0..nodes as u32).into_par_iter().map(|n| sheet.covered(n)).collect();
     let tips: Vec<Tip> = joints
         .par_iter()
@@ -108,7 +117,7 @@ pub fn close(sheet: &Sheet, hints: &[(FacetId, f64)]) -> Closure {
             sheet.trim_joint(joint)
         })
         .collect();
-    let mut state = State::new(sheet, tips);
+    let mut state = State::new(sheet, scope, tips);
     let mut boundaries: Vec<Boundary> = (0..sheet.fans.facets.len() as FacetId)
         .into_par_iter()
         .map(|f| if wanted(f) { state.begin(f, &covered) } else { Boundary::default() })
@@ -173,6 +182,7 @@ enum Between {
 
 struct State<'a> {
     sheet: &'a Sheet<'a>,
+    scope: Scope,
     tips: Vec<Tip>,
     vertices: Vec<DVec3>,
     keys: Vec<Option<Key>>,
@@ -180,7 +190,7 @@ struct State<'a> {
 }
 
 impl<'a> State<'a> {
-    fn new(sheet: &'a Sheet<'a>, tips: Vec<Tip>) -> Self {
+    fn new(sheet: &'a Sheet<'a>, scope: Scope, tips: Vec<Tip>) -> Self {
         let mut vertices = sheet.network.nodes.clone();
         let mut keys: Vec<Option<Key>> = vec![None; vertices.len()];
         let mut ids = FxHashMap::default();
@@ -192,7 +202,7 @@ impl<'a> State<'a> {
             keys.push((tip.r > 0.0).then_some(key));
             vertices.push(tip.point);
         }
-        Self { sheet, tips, vertices, keys, ids }
+        Self { sheet, scope, tips, vertices, keys, ids }
     }
 
     fn tip_vertex(&self, joint: u32) -> VertexId {
@@ -290,7 +300,7 @@ impl<'a> State<'a> {
             for f in self.keys[id as usize].into_iter().flatten() {
                 let known = f == finder
                     || f == END
-                    || !self.sheet.facet(f).wanted
+                    || !(self.scope == Scope::All || self.sheet.facet(f).wanted)
                     || boundaries[f as usize].knots.iter().any(|k| k.vertex == id);
                 if !known {
                     tell.push((f, id));

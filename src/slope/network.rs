@@ -57,8 +57,9 @@ pub struct Edge {
     pub wanted: [bool; 2],
     /// Whether the inside of a ring lies on the left (0) and on the right (1).
     pub interior: [bool; 2],
-    /// Chain the edge comes from and runs along (the first, where several share it).
-    pub chain: u32,
+    /// Given vertices at its ends. An edge runs along its chain; the end of a ring's last segment counts on past the last
+    /// vertex. Where several chains share an edge, the first.
+    pub given: [Given; 2],
     /// Vertices between the ends.
     pub inner: Vec<Inner>,
 }
@@ -72,8 +73,6 @@ pub struct Network {
     pub sign: f64,
     /// Nodes: plan position and height of the falling sheet.
     pub nodes: Vec<DVec3>,
-    /// A given vertex at each node.
-    pub node_given: Vec<Given>,
     /// Edges.
     pub edges: Vec<Edge>,
     /// Vertices that were moved onto a chord.
@@ -89,7 +88,8 @@ struct Piece {
     ends: [u32; 2],
     wanted: [bool; 2],
     interior: [bool; 2],
-    chain: u32,
+    /// The segment of the line it is.
+    given: Given,
 }
 
 impl Network {
@@ -100,9 +100,9 @@ impl Network {
         let (min, max) = plan_box(line);
         let frame = Frame::around(min, max);
         let sign = if design.sheet == Sheet::Rising { -1.0 } else { 1.0 };
-        let (points, given, of_vertex) = weld(line, &frame, sign);
+        let (points, of_vertex) = weld(line, &frame, sign);
         let pieces = pieces(line, design, &of_vertex);
-        Self { frame, sign, nodes: points, node_given: given, edges: Vec::new(), simplified: 0, collinear: 0, simplified_max: 0.0 }
+        Self { frame, sign, nodes: points, edges: Vec::new(), simplified: 0, collinear: 0, simplified_max: 0.0 }
             .with_edges(&pieces, design.slope.ratio(), bound)
     }
 
@@ -186,9 +186,10 @@ impl Network {
                 self.simplified_max = self.simplified_max.max(d.error);
             }
             let point = if exact { points[d.index] } else { pa.lerp(pb, d.along) };
-            inner.push(Inner { s: d.along * length, point, given: self.node_given[run.nodes[d.index] as usize] });
+            inner.push(Inner { s: d.along * length, point, given: run.given[d.index] });
         }
-        self.edges.push(Edge { a, b, wanted: run.wanted, interior: run.interior, chain: run.chain, inner });
+        let given = [run.given[chord.from], run.given[chord.to]];
+        self.edges.push(Edge { a, b, given, wanted: run.wanted, interior: run.interior, inner });
     }
 
     /// Renumbers nodes so that only those with an edge remain, in their old order.
@@ -205,7 +206,6 @@ impl Network {
         }
         let keep = |i: usize| new_id[i] != u32::MAX;
         self.nodes = self.nodes.iter().enumerate().filter(|&(i, _)| keep(i)).map(|(_, &p)| p).collect();
-        self.node_given = self.node_given.iter().enumerate().filter(|&(i, _)| keep(i)).map(|(_, &g)| g).collect();
         for edge in &mut self.edges {
             edge.a = new_id[edge.a as usize];
             edge.b = new_id[edge.b as usize];
@@ -223,23 +223,21 @@ fn plan_box(line: &Line) -> (DVec2, DVec2) {
 
 /// Brings all vertices into the local frame of the falling sheet and makes one node of those that coincide.
 ///
-/// Returns the nodes, a given vertex of each, and the node of every vertex by chain.
-fn weld(line: &Line, frame: &Frame, sign: f64) -> (Vec<DVec3>, Vec<Given>, Vec<Vec<u32>>) {
+/// Returns the nodes and the node of every vertex by chain.
+fn weld(line: &Line, frame: &Frame, sign: f64) -> (Vec<DVec3>, Vec<Vec<u32>>) {
     let mut points: Vec<DVec3> = Vec::with_capacity(line.vertex_count());
-    let mut given = Vec::with_capacity(line.vertex_count());
     let mut of_vertex = Vec::with_capacity(line.chains.len());
     let mut cells: FxHashMap<[i64; 3], Vec<u32>> = FxHashMap::default();
     // A simple ring cannot meet itself, so a single one needs no search.
     let search = line.chains.len() > 1 || !line.chains[0].closed();
-    for (c, chain) in line.chains.iter().enumerate() {
+    for chain in &line.chains {
         let mut nodes = Vec::with_capacity(chain.vertices.len());
-        for (v, &vertex) in chain.vertices.iter().enumerate() {
+        for &vertex in &chain.vertices {
             let local = frame.to_local(vertex);
             let p = DVec3::new(local.x, local.y, sign * local.z);
             let found = if search { find_near(&cells, &points, p) } else { None };
             let node = found.unwrap_or_else(|| {
                 points.push(p);
-                given.push(Given { chain: c as u32, vertex: v as u32 });
                 let id = points.len() as u32 - 1;
                 if search {
                     cells.entry(cell(p)).or_default().push(id);
@@ -250,7 +248,7 @@ fn weld(line: &Line, frame: &Frame, sign: f64) -> (Vec<DVec3>, Vec<Given>, Vec<V
         }
         of_vertex.push(nodes);
     }
-    (points, given, of_vertex)
+    (points, of_vertex)
 }
 
 /// Side of the cells of the weld grid: wide against the weld distance, so that a point seldom needs a neighbour.
@@ -313,7 +311,7 @@ fn pieces(line: &Line, design: &Design, of_vertex: &[Vec<u32>]) -> Vec<Piece> {
                 }
             } else {
                 known.insert(pair, pieces.len());
-                pieces.push(Piece { ends: [a, b], wanted, interior, chain: c as u32 });
+                pieces.push(Piece { ends: [a, b], wanted, interior, given: Given { chain: c as u32, vertex: i as u32 } });
             }
         }
     }
@@ -329,9 +327,10 @@ fn signed_area(ring: &[DVec3]) -> f64 {
 /// A maximal path of pieces that agree in chain and sides, without a branch.
 struct Run {
     nodes: Vec<u32>,
+    /// The given vertex at each node.
+    given: Vec<Given>,
     wanted: [bool; 2],
     interior: [bool; 2],
-    chain: u32,
 }
 
 /// Pieces by node.
@@ -356,7 +355,7 @@ impl<'a> Runs<'a> {
         let [p, q] = self.at_node[node as usize][..] else { return true };
         let (p, q) = (&self.pieces[p as usize], &self.pieces[q as usize]);
         let through = p.ends[1] == q.ends[0] || p.ends[0] == q.ends[1];
-        !through || p.chain != q.chain || p.wanted != q.wanted || p.interior != q.interior
+        !through || p.given.chain != q.given.chain || p.wanted != q.wanted || p.interior != q.interior
     }
 
     fn all(&self, points: &[DVec3]) -> Vec<Run> {
@@ -379,7 +378,13 @@ impl<'a> Runs<'a> {
     /// Follows pieces forward from piece `p` up to a fixed node or back to the start.
     fn walk(&self, p: usize, done: &mut [bool]) -> Run {
         let piece = &self.pieces[p];
-        let mut run = Run { nodes: vec![piece.ends[0], piece.ends[1]], wanted: piece.wanted, interior: piece.interior, chain: piece.chain };
+        let after = |g: Given| Given { vertex: g.vertex + 1, ..g };
+        let mut run = Run {
+            nodes: vec![piece.ends[0], piece.ends[1]],
+            given: vec![piece.given, after(piece.given)],
+            wanted: piece.wanted,
+            interior: piece.interior,
+        };
         done[p] = true;
         let mut at = piece.ends[1];
         while !self.fixed(at) {
@@ -390,6 +395,7 @@ impl<'a> Runs<'a> {
             done[next as usize] = true;
             at = self.pieces[next as usize].ends[1];
             run.nodes.push(at);
+            run.given.push(after(self.pieces[next as usize].given));
         }
         run
     }
@@ -408,13 +414,18 @@ impl<'a> Runs<'a> {
         };
         let (first, _) = farthest(mean);
         let (second, _) = farthest(at(first));
-        let path = |from: usize, to: usize| {
+        let part = |from: usize, to: usize| {
             let count = (to + ring.len() - from - 1) % ring.len() + 1;
-            (0..=count).map(|i| ring[(from + i) % ring.len()]).collect::<Vec<_>>()
+            let at: Vec<usize> = (0..=count).map(|i| (from + i) % ring.len()).collect();
+            // The last vertex is the one after the one before it: on a ring it may be the first again.
+            let last = Given { vertex: run.given[at[count - 1]].vertex + 1, ..run.given[0] };
+            Run {
+                nodes: at.iter().map(|&i| ring[i]).collect(),
+                given: at[..count].iter().map(|&i| run.given[i]).chain([last]).collect(),
+                wanted: run.wanted,
+                interior: run.interior,
+            }
         };
-        [(first, second), (second, first)]
-            .into_iter()
-            .map(|(from, to)| Run { nodes: path(from, to), wanted: run.wanted, interior: run.interior, chain: run.chain })
-            .collect()
+        vec![part(first, second), part(second, first)]
     }
 }

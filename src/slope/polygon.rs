@@ -143,9 +143,14 @@ fn band_of(a: &Corner, b: &Corner) -> Code {
     }
 }
 
+/// Whether three corners turn left. Corners on the edge of the network are on one straight line, whatever rounding says.
+fn left_turn(a: &Corner, b: &Corner, c: &Corner) -> bool {
+    !(a.near && b.near && c.near) && turn(a.plan, b.plan, c.plan) == Turn::Left
+}
+
 /// Triangulates a polygon that is monotone in `(τ, r)`; falls back to clipping ears.
 fn triangulate(ring: &[Corner], out: &mut Vec<[PointId; 3]>) -> bool {
-    let positive = |a: &Corner, b: &Corner, c: &Corner| turn(a.plan, b.plan, c.plan) == Turn::Left;
+    let positive = left_turn;
     match ring {
         [] | [_] | [_, _] => true,
         [a, b, c] => {
@@ -210,7 +215,7 @@ fn sweep(ring: &[Corner], out: &mut Vec<[PointId; 3]>) -> bool {
     let start = out.len();
     let mut push = |a: usize, b: usize, c: usize, is_near: bool| {
         let [a, b, c] = if is_near { [a, b, c] } else { [a, c, b] };
-        let positive = turn(ring[a].plan, ring[b].plan, ring[c].plan) == Turn::Left;
+        let positive = left_turn(&ring[a], &ring[b], &ring[c]);
         if positive {
             out.push([ring[a].id, ring[b].id, ring[c].id]);
         }
@@ -249,7 +254,7 @@ fn clip_ears(ring: &[Corner], out: &mut Vec<[PointId; 3]>) -> bool {
         let n = left.len();
         let ear = (0..n).find(|&i| {
             let [a, b, c] = [left[(i + n - 1) % n], left[i], left[(i + 1) % n]];
-            turn(plan(a), plan(b), plan(c)) == Turn::Left
+            left_turn(&ring[a], &ring[b], &ring[c])
                 && left.iter().all(|&p| {
                     [a, b, c].contains(&p)
                         || [(a, b), (b, c), (c, a)].iter().any(|&(s, t)| turn(plan(s), plan(t), plan(p)) == Turn::Right)
@@ -260,5 +265,5 @@ fn clip_ears(ring: &[Corner], out: &mut Vec<[PointId; 3]>) -> bool {
         left.remove(i);
     }
     out.push([left[0], left[1], left[2]].map(|p| ring[p].id));
-    turn(plan(left[0]), plan(left[1]), plan(left[2])) == Turn::Left
+    left_turn(&ring[left[0]], &ring[left[1]], &ring[left[2]])
 }
