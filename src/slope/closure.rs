@@ -23,7 +23,7 @@ const TIE_WIDTH: f64 = 1e-15;
 const MAX_ROUNDS: usize = 60;
 
 /// Steps one facet may take in a round, and per knot it starts with, before it is given up.
-const MAX_STEPS: [usize; 2] = [100, 4];
+const MAX_STEPS: [usize; 2] = [1000, 4];
 
 /// Sectors are looked at from rulings at most this far apart (radians) before closure starts.
 const SECTOR_STEP: f64 = 0.5;
