@@ -103,9 +103,8 @@ fn scope(seed: u64, size: usize, tolerance: f64) -> Result<(), String> {
     let name = format!("seed {seed} ({}) {side:?} {sheet:?} {extent:?}", case.name);
     match surface::build(&line, &design, None, &()) {
         Err(e) => Err(format!("{name}: {e}")),
-        Ok(surface) => std::panic::catch_unwind(|| examine(&name, &case, &design, &surface)).map_err(|p| {
-            p.downcast_ref::<String>().cloned().unwrap_or_else(|| name.clone())
-        }),
+        Ok(surface) => std::panic::catch_unwind(|| examine(&name, &case, &design, &surface))
+            .map_err(|p| p.downcast_ref::<String>().cloned().unwrap_or_else(|| name.clone())),
     }
 }
 
@@ -122,7 +121,9 @@ fn explore() {
                 bad += 1;
                 println!("size {size} tol {tol}: {}", e.replace('\n', " | "));
             }
-            if t.elapsed().as_secs_f64() > 3.0 { println!("slow {seed} {size} {tol} {:?}", t.elapsed()); }
+            if t.elapsed().as_secs_f64() > 3.0 {
+                println!("slow {seed} {size} {tol} {:?}", t.elapsed());
+            }
         }
     }
     println!("bad {bad}");

@@ -95,7 +95,9 @@ impl Arcs {
                 let mine = [partner, f, ends[1], ends[0]];
                 let mut arc = arcs.len() as ArcId;
                 let mut forward = true;
-                if partner != END && let Some(other) = waiting.remove(&mine) {
+                if partner != END
+                    && let Some(other) = waiting.remove(&mine)
+                {
                     arcs[other as usize].paired = true;
                     (arc, forward) = (other, false);
                 } else {

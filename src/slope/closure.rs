@@ -263,11 +263,7 @@ impl<'a> State<'a> {
     }
 
     /// One round: closes the pending facets, numbers what they found and collects who has yet to hear of it.
-    fn round(
-        &mut self,
-        boundaries: &mut [Boundary],
-        pending: Vec<(FacetId, Vec<VertexId>)>,
-    ) -> Vec<(FacetId, Vec<VertexId>)> {
+    fn round(&mut self, boundaries: &mut [Boundary], pending: Vec<(FacetId, Vec<VertexId>)>) -> Vec<(FacetId, Vec<VertexId>)> {
         let work: Vec<(FacetId, Vec<VertexId>, Boundary)> =
             pending.into_iter().map(|(f, mates)| (f, mates, std::mem::take(&mut boundaries[f as usize]))).collect();
         let this = &*self;
@@ -387,7 +383,9 @@ impl<'a> State<'a> {
             }
         }
         let base = self.vertices.len();
-        let is_fresh = |v: VertexId| v != HINT && v as usize >= base && (HINT - 1 - v) as usize >= usize::MIN && (HINT - 1 - v) < found.len() as u32;
+        let is_fresh = |v: VertexId| {
+            v != HINT && v as usize >= base && (HINT - 1 - v) as usize >= usize::MIN && (HINT - 1 - v) < found.len() as u32
+        };
         knots.retain(|k| k.vertex != HINT || k.left != k.right);
         knots
             .iter()
@@ -458,14 +456,7 @@ impl<'a> State<'a> {
     }
 
     /// If `x` lies beyond a shared ruling of partner `k`: the neighbour there, and the tip if it lies on `f`.
-    fn beyond(
-        &self,
-        f: FacetId,
-        k: FacetId,
-        x: glam::DVec2,
-        a: &Knot,
-        b: &Knot,
-    ) -> Option<(FacetId, Option<(f64, VertexId)>)> {
+    fn beyond(&self, f: FacetId, k: FacetId, x: glam::DVec2, a: &Knot, b: &Knot) -> Option<(FacetId, Option<(f64, VertexId)>)> {
         if k == END || k == twin_strip(self.sheet, f) {
             return None;
         }
@@ -619,4 +610,3 @@ fn bracket(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> Option<f64> {
     }
     Some(0.5 * (lo + hi))
 }
-

@@ -96,8 +96,9 @@ struct Far {
 /// Triangulates all wanted facets.
 pub fn emit(sheet: &Sheet, closure: &Closure, arcs: &Arcs, cut: &Cut) -> Slopes {
     let shared = Shared::new(sheet, closure, arcs, cut);
-    let wanted: Vec<FacetId> =
-        (0..sheet.fans.facets.len() as FacetId).filter(|&f| sheet.facet(f).wanted && !arcs.pieces[f as usize].is_empty()).collect();
+    let wanted: Vec<FacetId> = (0..sheet.fans.facets.len() as FacetId)
+        .filter(|&f| sheet.facet(f).wanted && !arcs.pieces[f as usize].is_empty())
+        .collect();
     let base = shared.points.len() as PointId;
     let cells: Vec<Cell> = wanted.par_iter().map(|&f| shared.cell(f, base)).collect();
     let mut slopes = Slopes::default();
@@ -386,7 +387,13 @@ impl<'a> Shared<'a> {
             if end == node {
                 return vec![node];
             }
-            let side = if i == 0 { joints[0] } else if i + 1 == far.len() { joints[1] } else { None };
+            let side = if i == 0 {
+                joints[0]
+            } else if i + 1 == far.len() {
+                joints[1]
+            } else {
+                None
+            };
             let mut ids = vec![node];
             if let Some(j) = side {
                 ids.extend(self.joint_ladder(j, end));

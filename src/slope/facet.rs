@@ -182,9 +182,7 @@ impl Facet {
     /// Height of the facet, extended over the whole plan: its plane, or its full cone.
     pub fn height(&self, x: DVec2) -> f64 {
         match self.kind {
-            Kind::Strip(_) => {
-                self.z0 + self.gradient.to_f64().dot(x - self.origin)
-            }
+            Kind::Strip(_) => self.z0 + self.gradient.to_f64().dot(x - self.origin),
             Kind::Sector(_) => self.z0 - self.drop * (x - self.origin).length(),
         }
     }

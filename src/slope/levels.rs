@@ -22,8 +22,7 @@ pub struct Levels {
 /// A round number (1, 2 or 5 times a power of ten) that divides `range` into 10 to 25 parts.
 pub fn round_interval(range: f64) -> f64 {
     let power = 10_f64.powf((range / COUNT.1).log10().floor());
-    let fits = |step: f64| range / step <= COUNT.1 && range / step >= COUNT.0;
-    [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * power).find(|&s| fits(s)).unwrap_or(10.0 * power)
+    [1.0, 2.0, 5.0].into_iter().map(|m| m * power).find(|step| range / step <= COUNT.1).unwrap_or(10.0 * power)
 }
 
 impl Levels {
@@ -98,8 +97,9 @@ mod tests {
 
     #[test]
     fn intervals_are_round() {
-        for (range, step) in [(10.0, 1.0), (24.9, 1.0), (25.1, 2.0), (60.0, 5.0), (0.37, 0.02), (1234.0, 50.0)] {
+        for (range, step) in [(10.0, 0.5), (24.9, 1.0), (25.1, 2.0), (60.0, 5.0), (0.37, 0.02), (1234.0, 50.0)] {
             assert!((round_interval(range) / step - 1.0).abs() < 1e-12, "{range}: {}", round_interval(range));
+            assert!((10.0..=25.0).contains(&(range / step)), "{range} in steps of {step}");
         }
     }
 }

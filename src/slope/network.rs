@@ -102,8 +102,11 @@ impl Network {
         let sign = if design.sheet == Sheet::Rising { -1.0 } else { 1.0 };
         let (points, of_vertex) = weld(line, &frame, sign);
         let pieces = pieces(line, design, &of_vertex);
-        Self { frame, sign, nodes: points, edges: Vec::new(), simplified: 0, collinear: 0, simplified_max: 0.0 }
-            .with_edges(&pieces, design.slope.ratio(), bound)
+        Self { frame, sign, nodes: points, edges: Vec::new(), simplified: 0, collinear: 0, simplified_max: 0.0 }.with_edges(
+            &pieces,
+            design.slope.ratio(),
+            bound,
+        )
     }
 
     /// Height in the world of a height of the falling sheet.
@@ -388,7 +391,8 @@ impl<'a> Runs<'a> {
         done[p] = true;
         let mut at = piece.ends[1];
         while !self.fixed(at) {
-            let Some(&next) = self.at_node[at as usize].iter().find(|&&q| !done[q as usize] && self.pieces[q as usize].ends[0] == at)
+            let Some(&next) =
+                self.at_node[at as usize].iter().find(|&&q| !done[q as usize] && self.pieces[q as usize].ends[0] == at)
             else {
                 break;
             };

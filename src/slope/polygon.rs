@@ -64,6 +64,13 @@ impl Slice {
                 Some(chain) if chain.band == band(i) => chain.last = i + 1,
                 _ => chains.push(Chain { band: band(i), first: i, last: i + 1 }),
             }
+            let goes_on = i + 1 < start + n && band(i + 1) == band(i);
+            if goes_on && touches_level(&ring[i % n], &ring[(i + 1) % n], &ring[(i + 2) % n]) {
+                // The outline only touches the level here, and the level goes on on both sides: a corner of the pieces on
+                // the far side of the level as well.
+                let other = if ring[(i + 1) % n].code / 2 == band(i) { band(i) + 1 } else { band(i) - 1 };
+                chains.push(Chain { band: other, first: i + 1, last: i + 1 });
+            }
         }
         let Some(next) = self.link(ring, &chains) else { return false };
         let mut done = vec![false; chains.len()];
@@ -116,21 +123,39 @@ impl Slice {
             if !(above || below) {
                 return None;
             }
-            list.sort_by(|a, b| if above { a.0.total_cmp(&b.0) } else { b.0.total_cmp(&a.0) }.then(b.1.cmp(&a.1)));
-            for pair in list.chunks(2) {
-                let [from, to] = pair else { return None };
-                if !from.1 || to.1 {
-                    return None;
+            list.sort_by(|a, b| if above { a.0.total_cmp(&b.0) } else { b.0.total_cmp(&a.0) });
+            let mut i = 0;
+            let mut open: Option<usize> = None;
+            while i < list.len() {
+                // Ends and starts take turns; where several fall on one corner, the one whose turn it is goes first.
+                let fits = |e: &(f64, bool, usize)| e.1 == open.is_none();
+                let same = list[i..].iter().take_while(|e| e.0 == list[i].0).count();
+                let at = (i..i + same).find(|&j| fits(&list[j]))?;
+                list.swap(i, at);
+                let chain = list[i].2;
+                match open.take() {
+                    None => open = Some(chain),
+                    Some(from) => {
+                        next[from] = chain;
+                        let chord = [ring[chains[from].last % n].id, ring[chains[chain].first % n].id];
+                        if below && chord[0] != chord[1] {
+                            self.chords.push((code / 2, chord));
+                        }
+                    }
                 }
-                next[from.2] = to.2;
-                let chord = [ring[chains[from.2].last % n].id, ring[chains[to.2].first % n].id];
-                if below && chord[0] != chord[1] {
-                    self.chords.push((code / 2, chord));
-                }
+                i += 1;
+            }
+            if open.is_some() {
+                return None;
             }
         }
         next.iter().all(|&c| c != usize::MAX).then_some(next)
     }
+}
+
+/// Whether the outline turns back at `corner`, on a level, with the inside around it: a reflex corner.
+fn touches_level(before: &Corner, corner: &Corner, after: &Corner) -> bool {
+    corner.code % 2 == 1 && turn(before.plan, corner.plan, after.plan) == Turn::Right
 }
 
 /// The band an outline edge lies in. Along a level, an edge of the network bounds what is below it, any other edge what is
@@ -153,7 +178,8 @@ fn left_turn(a: &Corner, b: &Corner, c: &Corner, least: f64) -> bool {
     if (a.near && b.near && c.near) || turn(a.plan, b.plan, c.plan) != Turn::Left {
         return false;
     }
-    let longest = (b.plan - a.plan).length_squared().max((c.plan - b.plan).length_squared()).max((a.plan - c.plan).length_squared());
+    let longest =
+        (b.plan - a.plan).length_squared().max((c.plan - b.plan).length_squared()).max((a.plan - c.plan).length_squared());
     let area = (b.plan - a.plan).perp_dot(c.plan - a.plan);
     area * area > least * least * longest
 }

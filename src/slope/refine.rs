@@ -196,9 +196,7 @@ impl<'a> Curve<'a> {
         let facet = sheet.facet(other);
         let (towards, num, shift, scale) = match facet.kind {
             // R = num / k(1 − d·d_k): shortest against the other's rulings.
-            Kind::Strip(_) => {
-                (-facet.d, foot.z - facet.height(foot.truncate()), sector.drop, sector.drop)
-            }
+            Kind::Strip(_) => (-facet.d, foot.z - facet.height(foot.truncate()), sector.drop, sector.drop),
             // R = num / 2(e + w·d): shortest towards the other's node.
             Kind::Sector(_) => {
                 let w = facet.origin - sector.origin;

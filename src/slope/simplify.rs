@@ -134,7 +134,8 @@ mod tests {
     #[test]
     fn a_circle_keeps_the_bound() {
         let (radius, slope, bound) = (500.0, 0.5, 1e-3);
-        let run: Vec<DVec3> = (0..=4000).map(|i| f64::from(i) / 4000.0).map(|t| DVec3::new(radius * t.cos(), radius * t.sin(), 3.0 * t)).collect();
+        let run: Vec<DVec3> =
+            (0..=4000).map(|i| f64::from(i) / 4000.0).map(|t| DVec3::new(radius * t.cos(), radius * t.sin(), 3.0 * t)).collect();
         let chords = simplify(&run, slope, bound, 0.499, 1e-6);
         // Sagitta c²/8R ≤ bound/slope gives the longest chord; halving may leave chords up to twice as short.
         let longest = (8.0 * radius * bound / slope).sqrt();

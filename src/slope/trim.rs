@@ -42,11 +42,8 @@ pub struct Tip {
 
 /// The index of a network's edges.
 pub fn index_of(network: &Network, k: f64) -> Index {
-    let segments: Vec<Segment> = network
-        .edges
-        .iter()
-        .map(|e| Segment::new(network.nodes[e.a as usize], network.nodes[e.b as usize], k))
-        .collect();
+    let segments: Vec<Segment> =
+        network.edges.iter().map(|e| Segment::new(network.nodes[e.a as usize], network.nodes[e.b as usize], k)).collect();
     Index::new(&segments, k)
 }
 
@@ -248,9 +245,7 @@ impl<'a> Sheet<'a> {
         }
         let facet = self.facet(k);
         let (num, den) = match facet.kind {
-            Kind::Strip(_) => {
-                (Dd::from(foot.z) - facet.height_dd(DdVec2::from(foot.truncate())), facet.gradient.dot(d) + self.k)
-            }
+            Kind::Strip(_) => (Dd::from(foot.z) - facet.height_dd(DdVec2::from(foot.truncate())), facet.gradient.dot(d) + self.k),
             Kind::Sector(_) => {
                 let w = DdVec2::between(foot.truncate(), facet.origin);
                 let e = Dd::difference(facet.z0, foot.z) / self.k;
@@ -288,8 +283,8 @@ impl<'a> Sheet<'a> {
         }
         let mut intruded = false;
         self.index.visit_above(plan, own.to_f64() - near, |e| {
-            intruded = intruded
-                || ([f, a, b].iter().all(|&g| g == END || !self.belongs(g, e)) && self.edge_height_dd(e, x) > limit);
+            intruded =
+                intruded || ([f, a, b].iter().all(|&g| g == END || !self.belongs(g, e)) && self.edge_height_dd(e, x) > limit);
         });
         intruded
     }

@@ -225,7 +225,10 @@ impl Found {
         (!self.below.is_empty()).then(|| {
             Note::new(
                 "line-beyond-end",
-                format!("{length:.3} of the line in {} stretches lies {word} the end of the slope and has none", self.below.len()),
+                format!(
+                    "{length:.3} of the line in {} stretches lies {word} the end of the slope and has none",
+                    self.below.len()
+                ),
             )
         })
     }

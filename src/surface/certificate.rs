@@ -103,8 +103,7 @@ fn measure_slopes(design: &Design, body: &Body, certificate: &mut Certificate) {
         }
         let normal = (b - a).cross(c - a);
         let deviation = (normal.truncate().length().atan2(normal.z) - alpha).abs().to_degrees();
-        let worst =
-            if on_cone { &mut certificate.sector_max_deviation_deg } else { &mut certificate.strip_max_deviation_deg };
+        let worst = if on_cone { &mut certificate.sector_max_deviation_deg } else { &mut certificate.strip_max_deviation_deg };
         *worst = worst.max(deviation);
         certificate.triangles_beyond_0_1deg += usize::from(deviation > 0.1);
     }

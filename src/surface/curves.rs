@@ -53,12 +53,8 @@ pub(crate) fn lines(
     for (chain, segments) in line.chains.iter().zip(&by_chain) {
         push(CurveKind::Hinge, None, Some(chain.name.clone()), segments);
     }
-    let boundary: Vec<[u32; 2]> = edges
-        .open()
-        .into_iter()
-        .map(|[a, b]| [a.min(b), a.max(b)])
-        .filter(|e| hinge.binary_search(e).is_err())
-        .collect();
+    let boundary: Vec<[u32; 2]> =
+        edges.open().into_iter().map(|[a, b]| [a.min(b), a.max(b)]).filter(|e| hinge.binary_search(e).is_err()).collect();
     push(CurveKind::Boundary, None, None, &boundary);
     features
 }

@@ -50,7 +50,9 @@ pub enum SurfaceError {
         rising: bool,
     },
     /// No side of any line is wanted.
-    #[error("there is no side to build on\n   = `inside` and `outside` need a ring\n   = help: close the line (`--closed`), or choose `--side left`, `right` or `both`")]
+    #[error(
+        "there is no side to build on\n   = `inside` and `outside` need a ring\n   = help: close the line (`--closed`), or choose `--side left`, `right` or `both`"
+    )]
     NoSide,
     /// The interval asks for too many levels.
     #[error("an interval of {interval} would give {count:.0} levels\n   = at most {limit} are cut\n   = help: use an interval of {least} or more", limit = levels::MAX_LEVELS)]
@@ -63,7 +65,9 @@ pub enum SurfaceError {
         least: f64,
     },
     /// A platform lies below the slope of another part.
-    #[error("the slope of one part covers the platform of another near ({x:.3}, {y:.3})\n   = {what}\n   = help: build the parts one by one, move them apart, or use a steeper slope")]
+    #[error(
+        "the slope of one part covers the platform of another near ({x:.3}, {y:.3})\n   = {what}\n   = help: build the parts one by one, move them apart, or use a steeper slope"
+    )]
     PlatformCovered {
         /// Place.
         x: f64,
@@ -85,7 +89,9 @@ pub enum SurfaceError {
         cause: RegionError,
     },
     /// The facets do not glue to one surface.
-    #[error("the surface could not be closed near ({x:.3}, {y:.3})\n   = {unpaired} of {arcs} pieces of creases have no counterpart\n   = help: try another `--tolerance`; this is a limit of the program, please report the line")]
+    #[error(
+        "the surface could not be closed near ({x:.3}, {y:.3})\n   = {unpaired} of {arcs} pieces of creases have no counterpart\n   = help: try another `--tolerance`; this is a limit of the program, please report the line"
+    )]
     Unclosed {
         /// Place.
         x: f64,
@@ -97,7 +103,9 @@ pub enum SurfaceError {
         arcs: usize,
     },
     /// The mesh failed its own check.
-    #[error("the mesh failed its check: {what}\n   = help: try another `--tolerance`; this is a limit of the program, please report the line")]
+    #[error(
+        "the mesh failed its check: {what}\n   = help: try another `--tolerance`; this is a limit of the program, please report the line"
+    )]
     Unsound {
         /// Which figure is out of bounds.
         what: String,
@@ -335,7 +343,10 @@ impl Body {
                 let end = |node: u32, given, s| emit::EdgePoint { s, id: number[node as usize], given: Some(given) };
                 let length = network.nodes[edge.a as usize].truncate().distance(network.nodes[edge.b as usize].truncate());
                 let inner = inner.iter().map(|p| emit::EdgePoint { id: number[p.id as usize], ..*p });
-                std::iter::once(end(edge.a, edge.given[0], 0.0)).chain(inner).chain([end(edge.b, edge.given[1], length)]).collect()
+                std::iter::once(end(edge.a, edge.given[0], 0.0))
+                    .chain(inner)
+                    .chain([end(edge.b, edge.given[1], length)])
+                    .collect()
             })
             .collect();
         let tin = Tin { frame: network.frame, vertices, triangles, parts };
@@ -361,13 +372,27 @@ impl Body {
         let (low, high) = line.elevation_range();
         let inside = design.side_of_rings == crate::model::Side::Inside && line.chains.iter().all(|c| c.closed());
         let plane = reference.unwrap_or_else(|| match (inside, design.extent) {
-            (true, _) => if falling { high } else { low },
+            (true, _) => {
+                if falling {
+                    high
+                } else {
+                    low
+                }
+            }
             (false, Extent::Elevation(z)) => z,
-            (false, _) => if falling { ends.lowest } else { -ends.lowest },
+            (false, _) => {
+                if falling {
+                    ends.lowest
+                } else {
+                    -ends.lowest
+                }
+            }
         });
         let count = self.tin.triangles.len();
         let found = volume::above_plane((0..count).map(|t| self.tin.corners(t)), plane);
-        let area = |range: std::ops::Range<usize>| -> f64 { range.map(|t| volume::plan_area(self.tin.corners(t))).collect::<Sum>().value() };
+        let area = |range: std::ops::Range<usize>| -> f64 {
+            range.map(|t| volume::plan_area(self.tin.corners(t))).collect::<Sum>().value()
+        };
         let cones = (0..self.on_cone.len()).filter(|&t| self.on_cone[t]).map(|t| volume::plan_area(self.tin.corners(t)));
         let error_bound = moved * area(0..count) + chord * cones.collect::<Sum>().value();
         Volumes {

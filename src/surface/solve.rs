@@ -1,11 +1,14 @@
 //! Closing the facets until the certificate holds.
 
 use super::{SurfaceError, Watch};
+use crate::kernel::orientation::{Turn, turn};
+use crate::kernel::segment_tree::SegmentTree;
 use crate::slope::arcs::Arcs;
 use crate::slope::closure::{self, Closure, Scope};
 use crate::slope::facet::{END, FacetId};
 use crate::slope::refine::WIDEST_WEDGE;
 use crate::slope::trim::Sheet;
+use glam::{DVec2, DVec3};
 
 /// Attempts with more and more rulings looked at.
 const ATTEMPTS: usize = 8;
@@ -42,6 +45,7 @@ pub(super) fn solve(sheet: &Sheet, watch: &dyn Watch) -> Result<Solved, SurfaceE
         attempt += 1;
         let before = hints.len();
         hints.extend(solved.seen_at_the_end(sheet));
+        hints.extend(solved.beside_crossing_ends(sheet));
         hints.extend(solved.beside_unpaired(sheet));
         hints.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         hints.dedup();
@@ -64,25 +68,68 @@ pub(super) fn solve(sheet: &Sheet, watch: &dyn Watch) -> Result<Solved, SurfaceE
 }
 
 impl Solved {
-    /// Rulings that reach the outer end though another sheet is higher there.
+    /// Rulings of cones that reach the outer end though another sheet is higher there.
     fn seen_at_the_end(&self, sheet: &Sheet) -> Vec<(FacetId, f64)> {
         let mut hints = Vec::new();
+        for (f, tau, p) in self
+            .ends(sheet)
+            .iter()
+            .filter(|e| !sheet.facet(e.0).is_strip())
+            .flat_map(|(f, rim)| rim.iter().map(|q| (*f, q.0, q.1)))
+        {
+            if sheet.index.height(p, None).0 > sheet.end + SEEN {
+                hints.push((f, tau));
+            }
+        }
+        hints
+    }
+
+    /// Rulings on both sides of places where the outer ends of two facets cross.
+    fn beside_crossing_ends(&self, sheet: &Sheet) -> Vec<(FacetId, f64)> {
+        const ASIDE: f64 = 1e-3;
+        let mut pieces: Vec<(FacetId, [f64; 2])> = Vec::new();
+        let mut segments = Vec::new();
+        for (f, rim) in self.ends(sheet) {
+            for w in rim.windows(2) {
+                pieces.push((f, [w[0].0, w[1].0]));
+                segments.push((w[0].1, w[1].1));
+            }
+        }
+        let mut hints = Vec::new();
+        if segments.is_empty() {
+            return hints;
+        }
+        SegmentTree::new(&segments).pairs(|i, j| {
+            if pieces[i].0 != pieces[j].0
+                && let Some(at) = crossing(segments[i], segments[j])
+            {
+                for ((f, range), t) in [(pieces[i], at[0]), (pieces[j], at[1])] {
+                    let width = range[1] - range[0];
+                    hints.extend([t - ASIDE, t + ASIDE].map(|t| (f, range[0] + width * t.clamp(ASIDE, 1.0 - ASIDE))));
+                }
+            }
+            true
+        });
+        hints
+    }
+
+    /// The outer end of each facet that has one: `τ` and place in plan, cones by chords.
+    fn ends(&self, sheet: &Sheet) -> Vec<(FacetId, Vec<(f64, DVec2)>)> {
+        let mut ends = Vec::new();
         for (f, pieces) in self.arcs.pieces.iter().enumerate() {
             let facet = sheet.facet(f as FacetId);
             for piece in pieces.iter().filter(|p| self.arcs.arcs[p.arc as usize].partner == END) {
                 let width = piece.tau[1] - piece.tau[0];
-                let parts = if facet.is_strip() { 2 } else { 2 * (width / WIDEST_WEDGE).ceil() as usize };
-                for i in 1..parts {
+                let parts = if facet.is_strip() { 1 } else { 2 * (width / WIDEST_WEDGE).ceil() as usize };
+                let rim = (0..=parts).map(|i| {
                     let tau = piece.tau[0] + width * (i as f64 / parts as f64);
                     let r = (facet.foot(tau).z - sheet.end) / sheet.k;
-                    let p = facet.point(tau, r);
-                    if sheet.index.height(p.truncate(), None).0 > sheet.end + SEEN {
-                        hints.push((f as FacetId, tau));
-                    }
-                }
+                    (tau, facet.point(tau, r).truncate())
+                });
+                ends.push((f as FacetId, rim.collect()));
             }
         }
-        hints
+        ends
     }
 
     /// Rulings in the middle of arcs without a counterpart, on both sides.
@@ -99,9 +146,20 @@ impl Solved {
     }
 
     /// A place where the surface does not close.
-    fn first_flaw(&self) -> Option<glam::DVec3> {
+    fn first_flaw(&self) -> Option<DVec3> {
         let unpaired = self.arcs.unpaired.first().map(|&i| self.arcs.arcs[i as usize].ends[0]);
         let stuck = self.closure.stuck.first().and_then(|&f| self.closure.knots[f as usize].first()).map(|k| k.vertex);
         unpaired.or(stuck).map(|v| self.closure.vertices[v as usize])
     }
+}
+
+/// Where two segments cross, as parts of their lengths.
+fn crossing((a, b): (DVec2, DVec2), (c, d): (DVec2, DVec2)) -> Option<[f64; 2]> {
+    let apart = |p, q, r, s| turn(p, q, r) == turn(p, q, s) || [turn(p, q, r), turn(p, q, s)].contains(&Turn::Straight);
+    if apart(a, b, c, d) || apart(c, d, a, b) {
+        return None;
+    }
+    let (u, v, w) = (b - a, d - c, c - a);
+    let det = u.perp_dot(v);
+    Some([w.perp_dot(v) / det, w.perp_dot(u) / det])
 }
