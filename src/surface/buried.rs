@@ -2,7 +2,9 @@
 
 use crate::model::{Design, Line, Note, Sheet as SheetKind};
 use crate::sheet::Segment;
+use crate::slope::arcs::Arcs;
 use crate::slope::closure::Closure;
+use crate::slope::emit::EdgePoint;
 use crate::slope::network::{Edge, Given, Network, twin};
 use crate::slope::trim::Sheet;
 use glam::{DVec2, DVec3};
@@ -59,6 +61,19 @@ struct Part {
     /// Whether another part lies above, or the end of the slope.
     covered: bool,
     stations: [f64; 2],
+}
+
+/// Places on each edge where it goes below another part's slope or comes out, in numbers of the emission.
+pub(crate) fn entries(sheet: &Sheet, closure: &Closure, arcs: &Arcs) -> Vec<Vec<EdgePoint>> {
+    let mut entries = vec![Vec::new(); sheet.network.edges.len()];
+    for (f, knots) in closure.knots.iter().enumerate().take(2 * entries.len()) {
+        let length = sheet.facet(f as u32).tau_max;
+        for knot in knots.iter().filter(|k| (k.left == twin(f as u32)) != (k.right == twin(f as u32))) {
+            let s = if f % 2 == 0 { knot.tau } else { length - knot.tau };
+            entries[f / 2].push(EdgePoint { s, id: arcs.vertex(knot.vertex), given: None });
+        }
+    }
+    entries
 }
 
 /// Finds the covered stretches of a closed sheet.

@@ -1,8 +1,8 @@
 //! Lines that lie below the slope of another part: stretches, depths and the slope that would free them.
 
 use crate::common::build::{design, line, on_both_sheets, open};
-use crate::common::measure::{close, height};
-use slopegen::model::Extent;
+use crate::common::measure::{close, height, length};
+use slopegen::model::{CurveKind, Extent};
 
 /// Places on the line: the engine finds entries by crossing straight facets.
 const EXACT: f64 = 1e-9;
@@ -96,7 +96,9 @@ fn crossing_roads() {
             // Deepest under the crossing, where the upper line itself passes h higher.
             close(stretch.depth, h, 1e-6, "depth");
             assert!((stretch.by_station - b).abs() < 1e-5 && stretch.at.length() < 1e-5, "{stretch:?}");
-            // Both lines show outside of the stretch.
+            // Both lines show outside of the stretch, and nothing of it.
+            let shown = (2.0 * a - (to - from)) * 1.0_f64.hypot(c) + 2.0 * b * 1.0_f64.hypot(g);
+            close(length(surface, CurveKind::Hinge), shown, EXACT, "hinge");
             for x in [from - 1.0, to + 1.0] {
                 close(height(surface, x, 0.0).expect("inside"), c * x, EXACT, "lower line");
             }
