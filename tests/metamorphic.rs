@@ -72,15 +72,17 @@ fn figures(surface: &Surface) -> Figures {
     ]
     .map(|(name, value, power)| (name.to_owned(), value, power))
     .to_vec();
-    for (i, &z) in surface.levels.iter().enumerate() {
-        values.push((format!("level {i}"), level_length(surface, z), 1));
-    }
     for (i, b) in surface.buried.iter().enumerate() {
         values.push((format!("length of stretch {i}"), b.to - b.from, 1));
         values.push((format!("depth of stretch {i}"), b.depth, 1));
         values.push((format!("free slope of stretch {i}"), b.free_slope.unwrap_or(0.0), 0));
     }
     values
+}
+
+/// Lengths of the level curves.
+fn levels(surface: &Surface) -> Figures {
+    surface.levels.iter().map(|&z| (format!("level {z}"), level_length(surface, z), 1)).collect()
 }
 
 /// Compares figures of `found`, lengths scaled by `scale`, to `relative` of the largest figure of the kind.
@@ -102,6 +104,7 @@ fn unchanged(relative: f64, scale: f64, change: impl Fn(&Fixture) -> (Vec<Polyli
         let (lines, design) = change(&fixture);
         let after = build(&line(&lines), &design);
         same(fixture.name, &figures(&before), &figures(&after), scale, relative);
+        same(fixture.name, &levels(&before), &levels(&after), scale, relative);
     }
 }
 
@@ -143,10 +146,14 @@ fn other_side(side: Side) -> Side {
 /// Creases between two cones are broken into chords as seen from the first one: 1e-9 of a volume is theirs.
 #[test]
 fn reversing() {
-    unchanged(1e-8, 1.0, |f| {
-        let lines = f.lines.iter().map(|l| Polyline { points: l.points.iter().rev().copied().collect(), closed: l.closed });
-        (lines.collect(), Design { side_of_lines: other_side(f.design.side_of_lines), ..f.design.clone() })
-    });
+    for fixture in fixtures() {
+        let before = build(&line(&fixture.lines), &fixture.design);
+        let reversed = |l: &Polyline| Polyline { points: l.points.iter().rev().copied().collect(), closed: l.closed };
+        let lines: Vec<Polyline> = fixture.lines.iter().map(reversed).collect();
+        let side_of_lines = other_side(fixture.design.side_of_lines);
+        let after = build(&line(&lines), &Design { side_of_lines, ..fixture.design.clone() });
+        same(fixture.name, &figures(&before), &figures(&after), 1.0, 1e-8);
+    }
 }
 
 /// Stations of buried stretches count from the other end of a reversed line.
@@ -248,6 +255,7 @@ fn splitting_segments() {
         let after = build(&line(&split), &fixture.design);
         assert_eq!((after.simplified, after.collinear - before.collinear), (0, added), "{}", fixture.name);
         same(fixture.name, &figures(&before), &figures(&after), 1.0, 1e-9);
+        same(fixture.name, &levels(&before), &levels(&after), 1.0, 1e-9);
         // They are vertices of the mesh all the same.
         assert!(after.certificate.input_edges_kept, "{}", fixture.name);
         let all: std::collections::HashSet<[u64; 3]> =
