@@ -4,10 +4,12 @@
 //! above it in this list; `pipeline` alone knows the order. See `docs/architecture.md`.
 
 pub mod kernel;
+pub mod mesh;
 pub mod model;
 pub mod read;
 pub mod report;
 pub mod sheet;
 pub mod slope;
+pub mod surface;
 pub mod validate;
 pub mod write;

@@ -3,4 +3,5 @@
 pub mod dd;
 pub mod frame;
 pub mod orientation;
+pub mod segment_tree;
 pub mod sum;

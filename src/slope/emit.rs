@@ -26,8 +26,6 @@ pub enum Trace {
     Crease,
     /// Part of the line.
     Hinge,
-    /// The outer end, or an open side.
-    Boundary,
 }
 
 /// A mesh edge with a meaning.
@@ -55,8 +53,6 @@ pub struct Slopes {
     pub on_cone: Vec<bool>,
     /// Mesh edges with a meaning; those that two facets share come twice.
     pub traces: Vec<Traced>,
-    /// Outer ends of facets inside a ring, directed with the facet on the right: a floor lies on their left.
-    pub rims: Vec<[PointId; 2]>,
     /// Points of each edge between its ends, from start to end.
     pub edge_points: Vec<Vec<EdgePoint>>,
     /// Facets whose cell could not be triangulated.
@@ -83,7 +79,6 @@ struct Cell {
     points: Vec<DVec3>,
     triangles: Vec<[PointId; 3]>,
     traces: Vec<Traced>,
-    rims: Vec<[PointId; 2]>,
     failed: bool,
     longest: f64,
 }
@@ -94,16 +89,8 @@ struct Far {
     tau: f64,
     r: f64,
     id: PointId,
-    /// What the stretch up to the next place is.
-    next: Stretch,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Stretch {
-    Crease,
-    End,
-    /// Towards a facet that is not wanted.
-    Open,
+    /// Whether another wanted facet lies beyond the stretch up to the next place.
+    shared: bool,
 }
 
 /// Triangulates all wanted facets.
@@ -125,7 +112,6 @@ pub fn emit(sheet: &Sheet, closure: &Closure, arcs: &Arcs, cut: &Cut) -> Slopes 
         slopes.triangles.extend(cell.triangles.iter().map(|t| t.map(place)));
         slopes.on_cone.resize(slopes.triangles.len(), !sheet.facet(f).is_strip());
         slopes.traces.extend(cell.traces.iter().map(|&(kind, ends)| (kind, ends.map(place))));
-        slopes.rims.extend(cell.rims.iter().map(|ends| ends.map(place)));
         if cell.failed {
             slopes.failed.push(f);
         }
@@ -242,26 +228,21 @@ impl<'a> Shared<'a> {
         for piece in pieces {
             let arc = &self.arcs.arcs[piece.arc as usize];
             let range = self.arc_start[piece.arc as usize]..self.arc_start[piece.arc as usize + 1];
-            let next = if arc.partner == END {
-                Stretch::End
-            } else if self.sheet.facet(arc.owner).wanted && self.sheet.facet(arc.partner).wanted {
-                Stretch::Crease
-            } else {
-                Stretch::Open
-            };
+            let wanted = |g: FacetId| g != END && self.sheet.facet(g).wanted;
+            let shared = wanted(arc.owner) && wanted(arc.partner);
             let inner: Vec<PointId> = if piece.forward { range.collect() } else { range.rev().collect() };
             let first = if piece.forward { arc.ends[0] } else { arc.ends[1] };
             for (i, id) in std::iter::once(first).chain(inner).enumerate() {
                 let (tau, r) = facet.parameters(self.points[id as usize].truncate());
                 let tau = if i == 0 { piece.tau[0] } else { tau.clamp(piece.tau[0], piece.tau[1]) };
-                far.push(Far { tau, r, id, next });
+                far.push(Far { tau, r, id, shared });
             }
         }
         if let Some(last) = pieces.last() {
             let arc = &self.arcs.arcs[last.arc as usize];
             let id = if last.forward { arc.ends[1] } else { arc.ends[0] };
             let (_, r) = facet.parameters(self.points[id as usize].truncate());
-            far.push(Far { tau: last.tau[1], r, id, next: Stretch::End });
+            far.push(Far { tau: last.tau[1], r, id, shared: false });
         }
         match self.cut.reach {
             Some(reach) => self.cut_off(f, &far, reach, base, cell),
@@ -277,12 +258,12 @@ impl<'a> Shared<'a> {
         for (i, p) in far.iter().enumerate() {
             if !beyond(p) {
                 let leaves = far.get(i + 1).is_some_and(&beyond);
-                out.push(Far { next: if leaves { Stretch::End } else { p.next }, ..*p });
+                out.push(Far { shared: p.shared && !leaves, ..*p });
             } else if i == 0 || i + 1 == far.len() {
                 // The end of the cell is a shared ruling, cut at the distance.
                 if let Lateral::Joint(j) = facet.lateral[usize::from(i > 0)] {
                     let id = self.joint_start[j as usize + 1] - 1;
-                    out.push(Far { tau: p.tau, r: reach, id, next: Stretch::End });
+                    out.push(Far { tau: p.tau, r: reach, id, shared: false });
                 }
             }
         }
@@ -292,13 +273,15 @@ impl<'a> Shared<'a> {
         let mut round: Vec<Far> = Vec::with_capacity(out.len());
         for (i, p) in out.iter().enumerate() {
             round.push(*p);
-            if let (Stretch::End, Some(q)) = (p.next, out.get(i + 1)) {
+            // Stretches along the distance, not those towards a facet that is not wanted.
+            let at_reach = |p: &Far| (p.r - reach).abs() <= REACH_SNAP;
+            if let Some(q) = out.get(i + 1).filter(|q| !p.shared && at_reach(p) && at_reach(q)) {
                 let taus = [p.tau, q.tau];
                 for point in self.cut.circle(facet, taus[0], taus[1], reach, facet.z0 - facet.drop * reach) {
                     let id = base + cell.points.len() as PointId;
                     cell.points.push(point);
                     let (tau, _) = facet.parameters(point.truncate());
-                    round.push(Far { tau, r: reach, id, next: Stretch::End });
+                    round.push(Far { tau, r: reach, id, shared: false });
                 }
             }
         }
@@ -326,7 +309,7 @@ impl<'a> Shared<'a> {
                 to += 1;
             }
             let far = self.far(f, &pieces[from..to], base, cell);
-            self.strip_run(f, facet, &far, base, cell);
+            self.strip_run(facet, &far, base, cell);
             from = to;
         }
     }
@@ -339,7 +322,7 @@ impl<'a> Shared<'a> {
         self.arcs.arcs[piece.arc as usize].ends[usize::from(piece.forward)]
     }
 
-    fn strip_run(&self, f: FacetId, facet: &Facet, far: &[Far], base: PointId, cell: &mut Cell) {
+    fn strip_run(&self, facet: &Facet, far: &[Far], base: PointId, cell: &mut Cell) {
         let (Some(first), Some(last)) = (far.first().copied(), far.last().copied()) else { return };
         let Kind::Strip(h) = facet.kind else { return };
         let nodes = [self.sheet.network.origin(h), self.sheet.network.target(h)];
@@ -376,8 +359,7 @@ impl<'a> Shared<'a> {
             ring.extend(self.joint_ladder(j, first.id).into_iter().rev().map(|id| rung(id, 0.0)));
         }
         cell.longest = far.iter().fold(cell.longest, |m, p| m.max(p.r));
-        self.trace_far(f, far, cell);
-        self.trace_laterals(f, &[(left, nodes[0], first.id), (right, nodes[1], last.id)], cell);
+        Self::trace_far(far, cell);
         let mut slice = polygon::Slice::new(facet.d);
         if !slice.triangulate(&ring, &mut cell.triangles) {
             cell.failed = true;
@@ -385,37 +367,8 @@ impl<'a> Shared<'a> {
         cell.traces.extend(slice.chords.iter().map(|&(u, ends)| (Trace::Level(u), ends)));
     }
 
-    fn trace_far(&self, f: FacetId, far: &[Far], cell: &mut Cell) {
-        let interior = self.sheet.interior(f);
-        for w in far.windows(2) {
-            let ends = [w[0].id, w[1].id];
-            match w[0].next {
-                Stretch::Crease => cell.traces.push((Trace::Crease, ends)),
-                Stretch::End => {
-                    cell.traces.push((Trace::Boundary, ends));
-                    if interior {
-                        cell.rims.push(ends);
-                    }
-                }
-                Stretch::Open => cell.traces.push((Trace::Boundary, ends)),
-            }
-        }
-    }
-
-    /// Rulings at which the surface ends because the neighbour is not wanted.
-    fn trace_laterals(&self, f: FacetId, ends: &[(Option<u32>, PointId, PointId); 2], cell: &mut Cell) {
-        for &(joint, node, tip) in ends {
-            let Some(j) = joint else { continue };
-            let joint = &self.sheet.fans.joints[j as usize];
-            let neighbour = if joint.left == f { joint.right } else { joint.left };
-            if self.sheet.facet(neighbour).wanted {
-                continue;
-            }
-            let mut path = vec![node];
-            path.extend(self.joint_ladder(j, tip));
-            path.push(tip);
-            cell.traces.extend(path.windows(2).map(|w| (Trace::Boundary, [w[0], w[1]])));
-        }
+    fn trace_far(far: &[Far], cell: &mut Cell) {
+        cell.traces.extend(far.windows(2).filter(|w| w[0].shared).map(|w| (Trace::Crease, [w[0].id, w[1].id])));
     }
 
     /// A sector: a fan of wedges between neighbouring rulings, each a plane through the node.
@@ -424,10 +377,8 @@ impl<'a> Shared<'a> {
         let Kind::Sector(node) = facet.kind else { return };
         let far = self.far(f, &self.arcs.pieces[f as usize], base, cell);
         cell.longest = far.iter().fold(cell.longest, |m, p| m.max(p.r));
-        self.trace_far(f, &far, cell);
-        let (Some(first), Some(last)) = (far.first(), far.last()) else { return };
+        Self::trace_far(&far, cell);
         let joints = facet.lateral.map(|l| if let Lateral::Joint(j) = l { Some(j) } else { None });
-        self.trace_laterals(f, &[(joints[0], node, first.id), (joints[1], node, last.id)], cell);
         let apex = self.closure.vertices[node as usize];
         let ladder = |i: usize, cell: &mut Cell| -> Vec<PointId> {
             let end = far[i].id;

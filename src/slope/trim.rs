@@ -67,17 +67,6 @@ impl<'a> Sheet<'a> {
         &self.fans.facets[id as usize]
     }
 
-    /// Whether a facet lies inside a ring.
-    pub fn interior(&self, f: FacetId) -> bool {
-        match self.facet(f).kind {
-            Kind::Strip(h) => self.network.edges[(h / 2) as usize].interior[(h & 1) as usize],
-            Kind::Sector(_) => match self.facet(f).lateral[0] {
-                Lateral::Joint(j) => self.interior(self.fans.joints[j as usize].left),
-                _ => false,
-            },
-        }
-    }
-
     /// Whether edge `e` ends at `node`.
     fn touches(&self, e: u32, node: u32) -> bool {
         let edge = &self.network.edges[e as usize];

@@ -3,15 +3,14 @@
 //! All decisions are exact: signs come from adaptive predicates on the given coordinates.
 
 mod contact;
-mod tree;
 
 use super::place::Locator;
 use super::vertices::show;
+use crate::kernel::segment_tree::SegmentTree;
 use crate::model::{Chain, Defect, Defects, Role};
 use contact::{Contacts, Meeting, is_spike, meeting, orient};
 use glam::DVec2;
 use std::collections::{BTreeMap, HashSet};
-use tree::Tree;
 
 /// After so many crossings the search ends: a scribble of n segments has n² of them.
 const ENOUGH: usize = 1000;
@@ -48,7 +47,7 @@ pub(super) fn check(label: &str, chains: &[Chain], defects: &mut Defects) {
     });
     let rings = Rings { segments: segments.collect(), chains, locators, label };
     let ends: Vec<_> = rings.segments.iter().map(|s| (s.a, s.b)).collect();
-    let tree = Tree::new(&ends);
+    let tree = SegmentTree::new(&ends);
     let mut contacts: BTreeMap<(usize, usize), Contacts> = BTreeMap::new();
     let mut seen = HashSet::new();
     let mut found = 0;
@@ -163,7 +162,7 @@ impl Rings<'_> {
     }
 
     /// Holes must lie inside the outer ring of their polygon.
-    fn holes(&self, tree: &Tree, contacts: &BTreeMap<(usize, usize), Contacts>, defects: &mut Defects) {
+    fn holes(&self, tree: &SegmentTree, contacts: &BTreeMap<(usize, usize), Contacts>, defects: &mut Defects) {
         let mut outer_of = BTreeMap::new();
         for (i, chain) in self.chains.iter().enumerate() {
             if let Role::Outer { polygon } = chain.role {
@@ -193,7 +192,7 @@ impl Rings<'_> {
     }
 
     /// Whether `p`, not on the ring, lies inside it: an odd number of segments crosses the ray towards +x.
-    fn contains(&self, tree: &Tree, ring: usize, p: DVec2) -> bool {
+    fn contains(&self, tree: &SegmentTree, ring: usize, p: DVec2) -> bool {
         let mut inside = false;
         tree.ray(p, |i| {
             let s = self.segments[i];

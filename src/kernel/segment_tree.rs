@@ -83,7 +83,7 @@ const LEAF: usize = 4;
 
 /// A binary tree over segments. Neighbours on a chain lie near each other, so runs of them make good boxes.
 #[derive(Debug)]
-pub(super) struct Tree {
+pub struct SegmentTree {
     segments: Vec<Bounds>,
     /// Node `k` has the children `2k` and `2k + 1`; the leaves are the second half.
     nodes: Vec<Bounds>,
@@ -94,8 +94,9 @@ pub(super) struct Tree {
 /// Larger nodes have no tilted box: they hold lines of many directions.
 const TILTED: usize = 256;
 
-impl Tree {
-    pub(super) fn new(ends: &[(DVec2, DVec2)]) -> Self {
+impl SegmentTree {
+    /// A tree over segments given by their ends.
+    pub fn new(ends: &[(DVec2, DVec2)]) -> Self {
         let segments: Vec<Bounds> = ends.iter().map(|&(a, b)| Bounds::EMPTY.with(a).with(b)).collect();
         let leaves = segments.len().div_ceil(LEAF).next_power_of_two();
         let mut nodes = vec![Bounds::EMPTY; 2 * leaves];
@@ -130,7 +131,7 @@ impl Tree {
     }
 
     /// Calls `visit` once for every pair `i < j` of segments whose bounds meet, until it returns `false`.
-    pub(super) fn pairs(&self, mut visit: impl FnMut(usize, usize) -> bool) {
+    pub fn pairs(&self, mut visit: impl FnMut(usize, usize) -> bool) {
         let leaves = self.nodes.len() / 2;
         let mut stack = vec![(1, 1)];
         while let Some((m, n)) = stack.pop() {
@@ -158,7 +159,7 @@ impl Tree {
     }
 
     /// Calls `visit` for every segment that may meet the ray from `p` towards +x.
-    pub(super) fn ray(&self, p: DVec2, mut visit: impl FnMut(usize)) {
+    pub fn ray(&self, p: DVec2, mut visit: impl FnMut(usize)) {
         let leaves = self.nodes.len() / 2;
         let mut stack = vec![1];
         while let Some(n) = stack.pop() {

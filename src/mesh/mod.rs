@@ -1,0 +1,5 @@
+//! Triangles as such: filling regions between edges, checking a mesh, measuring it.
+
+pub mod check;
+pub mod region;
+pub mod volume;

@@ -1,0 +1,119 @@
+//! Flat parts: the inside of closed outlines, triangulated from the mesh edges that bound it.
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation, handles::FixedFaceHandle, handles::InnerTag};
+
+/// Why a region could not be filled. Places are in the coordinates given.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RegionError {
+    /// Two edges of the outline cross.
+    #[error("two edges of the outline cross")]
+    Crossing(DVec3),
+    /// The outline is not closed.
+    #[error("the outline is open")]
+    Open(DVec3),
+    /// The triangulation refused a coordinate.
+    #[error("a coordinate cannot be triangulated: {0}")]
+    Coordinate(String),
+}
+
+struct Vertex {
+    position: Point2<f64>,
+    id: u32,
+}
+
+impl HasPosition for Vertex {
+    type Scalar = f64;
+
+    fn position(&self) -> Point2<f64> {
+        self.position
+    }
+}
+
+/// Triangulates the region on the left of the directed `outline`, using its vertices only (constrained Delaunay).
+///
+/// `points` are all mesh vertices; the outline consists of closed loops, already noded: edges meet at common vertices only.
+/// Returns counter-clockwise triangles of mesh vertices.
+///
+/// # Errors
+/// [`RegionError::Crossing`] and [`RegionError::Open`] if the outline is not what is asked for.
+pub fn fill(points: &[DVec3], outline: &[[u32; 2]]) -> Result<Vec<[u32; 3]>, RegionError> {
+    let mut local: FxHashMap<u32, usize> = FxHashMap::default();
+    let mut vertices: Vec<Vertex> = Vec::new();
+    let mut number = |id: u32| {
+        *local.entry(id).or_insert_with(|| {
+            let p = points[id as usize];
+            vertices.push(Vertex { position: Point2::new(p.x, p.y), id });
+            vertices.len() - 1
+        })
+    };
+    let edges: Vec<[usize; 2]> = outline.iter().map(|e| e.map(&mut number)).collect();
+    let place = |id: u32| points[id as usize];
+    let ids: Vec<u32> = vertices.iter().map(|v| v.id).collect();
+    let mut crossing = None;
+    let triangulation = ConstrainedDelaunayTriangulation::<Vertex>::try_bulk_load_cdt(vertices, edges, |e| {
+        crossing.get_or_insert(place(ids[e[0]]));
+    })
+    .map_err(|error| RegionError::Coordinate(error.to_string()))?;
+    if let Some(p) = crossing {
+        return Err(RegionError::Crossing(p));
+    }
+    let handle: FxHashMap<u32, _> = triangulation.vertices().map(|v| (v.data().id, v.fix())).collect();
+    let mut inside = vec![false; triangulation.num_all_faces()];
+    let mut pending: Vec<FixedFaceHandle<InnerTag>> = Vec::new();
+    for &[a, b] in outline {
+        let open = || RegionError::Open(place(a));
+        let (Some(&from), Some(&to)) = (handle.get(&a), handle.get(&b)) else { return Err(open()) };
+        let edge = triangulation.get_edge_from_neighbors(from, to).ok_or_else(open)?;
+        let face = edge.face().as_inner().ok_or_else(open)?.fix();
+        if !std::mem::replace(&mut inside[face.index()], true) {
+            pending.push(face);
+        }
+    }
+    while let Some(face) = pending.pop() {
+        for edge in triangulation.face(face).adjacent_edges() {
+            if edge.is_constraint_edge() {
+                continue;
+            }
+            let next = edge.rev().face().as_inner().ok_or_else(|| RegionError::Open(place(edge.from().data().id)))?.fix();
+            if !std::mem::replace(&mut inside[next.index()], true) {
+                pending.push(next);
+            }
+        }
+    }
+    Ok(triangulation
+        .inner_faces()
+        .filter(|face| inside[face.fix().index()])
+        .map(|face| face.vertices().map(|v| v.data().id))
+        .collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(from: f64, to: f64) -> [DVec3; 4] {
+        [(from, from), (to, from), (to, to), (from, to)].map(|(x, y)| DVec3::new(x, y, 1.0))
+    }
+
+    #[test]
+    fn fills_a_ring_with_a_hole() {
+        let points: Vec<DVec3> = square(0.0, 10.0).into_iter().chain(square(4.0, 6.0)).collect();
+        let outline = [[0, 1], [1, 2], [2, 3], [3, 0], [5, 4], [6, 5], [7, 6], [4, 7]];
+        let triangles = fill(&points, &outline).unwrap();
+        let area: f64 = triangles
+            .iter()
+            .map(|t| t.map(|v| points[v as usize].truncate()))
+            .map(|[a, b, c]| 0.5 * (b - a).perp_dot(c - a))
+            .sum();
+        assert_eq!(area, 96.0);
+    }
+
+    #[test]
+    fn refuses_crossing_and_open_outlines() {
+        let points = square(0.0, 10.0);
+        assert!(matches!(fill(&points, &[[0, 2], [2, 1], [1, 3], [3, 0]]), Err(RegionError::Crossing(_))));
+        assert!(matches!(fill(&points, &[[0, 1], [1, 2]]), Err(RegionError::Open(_))));
+    }
+}

@@ -1,0 +1,226 @@
+//! Stretches of the line that lie below the slope of another part, in the words of the line: chains and stations.
+
+use crate::model::{Design, Line, Note, Sheet as SheetKind};
+use crate::sheet::Segment;
+use crate::slope::closure::Closure;
+use crate::slope::network::{Edge, Given, Network, twin};
+use crate::slope::trim::Sheet;
+use glam::{DVec2, DVec3};
+
+/// A stretch of the line below the slope of another part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Buried {
+    /// Chain of the stretch.
+    pub chain: usize,
+    /// Station where it begins.
+    pub from: f64,
+    /// Station where it ends.
+    pub to: f64,
+    /// Greatest height of the covering slope above the line.
+    pub depth: f64,
+    /// Place of the greatest depth, world coordinates.
+    pub at: DVec2,
+    /// Chain that covers it there.
+    pub by_chain: usize,
+    /// Station of the foot of the covering slope.
+    pub by_station: f64,
+    /// The flattest slope (rise per run) that would leave the stretch free; `None` where parts meet in plan at different
+    /// heights, so that none would.
+    pub free_slope: Option<f64>,
+}
+
+/// What does not show of the line.
+pub(crate) struct Found {
+    /// Stretches below another part's slope.
+    pub(crate) stretches: Vec<Buried>,
+    /// Stretches beyond the end of the slope: chain, stations.
+    below: Vec<(usize, f64, f64)>,
+}
+
+/// Points looked at along a stretch, per edge and at the ends.
+const SAMPLES: usize = 32;
+
+/// Stretches shorter than this (length units) are not reported: they are the two sides of one touching point.
+const SHORTEST: f64 = 1e-6;
+
+/// Slopes beyond this ratio count as none.
+const STEEPEST: f64 = 1e4;
+
+/// A piece of one edge.
+struct Part {
+    edge: usize,
+    s: [f64; 2],
+    /// Whether another part lies above, or the end of the slope.
+    covered: bool,
+    stations: [f64; 2],
+}
+
+/// Finds the covered stretches of a closed sheet.
+pub(crate) fn stretches(line: &Line, sheet: &Sheet, closure: &Closure) -> Found {
+    let stations = Stations::new(line, sheet.network);
+    let mut parts: Vec<(usize, Part)> = Vec::new();
+    for (e, edge) in sheet.network.edges.iter().enumerate() {
+        let Some(f) = [2 * e, 2 * e + 1].into_iter().find(|&f| !closure.knots[f].is_empty()) else { continue };
+        let length = sheet.facet(f as u32).tau_max;
+        for w in closure.knots[f].windows(2) {
+            if w[0].right != twin(f as u32) || w[1].tau - w[0].tau <= SHORTEST {
+                continue;
+            }
+            let s = if f % 2 == 0 { [w[0].tau, w[1].tau] } else { [length - w[1].tau, length - w[0].tau] };
+            let middle = on(sheet, edge, 0.5 * (s[0] + s[1]));
+            let covered = sheet.index.height(middle.truncate(), None).0 > middle.z;
+            let at = s.map(|s| stations.of(e, s));
+            parts.push((edge.given[0].chain as usize, Part { edge: e, s, covered, stations: at }));
+        }
+    }
+    parts.sort_by(|a, b| (a.0, a.1.covered).cmp(&(b.0, b.1.covered)).then(a.1.stations[0].total_cmp(&b.1.stations[0])));
+    let mut found = Found { stretches: Vec::new(), below: Vec::new() };
+    let joins = |a: &(usize, Part), b: &(usize, Part)| {
+        a.0 == b.0 && a.1.covered == b.1.covered && (b.1.stations[0] - a.1.stations[1]).abs() <= SHORTEST
+    };
+    for group in parts.chunk_by(joins) {
+        let (chain, from, to) = (group[0].0, group[0].1.stations[0], group[group.len() - 1].1.stations[1]);
+        if group[0].1.covered {
+            found.stretches.push(describe(sheet, &stations, chain, [from, to], group));
+        } else {
+            found.below.push((chain, from, to));
+        }
+    }
+    found
+}
+
+/// The point of edge `edge` at plan distance `s` from its start.
+fn on(sheet: &Sheet, edge: &Edge, s: f64) -> DVec3 {
+    let (a, b) = (sheet.network.nodes[edge.a as usize], sheet.network.nodes[edge.b as usize]);
+    a.lerp(b, s / a.truncate().distance(b.truncate()))
+}
+
+fn describe(sheet: &Sheet, stations: &Stations, chain: usize, [from, to]: [f64; 2], group: &[(usize, Part)]) -> Buried {
+    let mut deepest = (f64::NEG_INFINITY, DVec3::ZERO, 0);
+    let mut samples = Vec::new();
+    for (_, part) in group {
+        let edge = &sheet.network.edges[part.edge];
+        let depth = |s: f64| {
+            let p = on(sheet, edge, s);
+            let (height, by) = sheet.index.height(p.truncate(), None);
+            (height - p.z, p, by)
+        };
+        let step = (part.s[1] - part.s[0]) / SAMPLES as f64;
+        let mut best = (f64::NEG_INFINITY, part.s[0]);
+        for i in 0..=SAMPLES {
+            let s = part.s[0] + step * i as f64;
+            let here = depth(s);
+            samples.push(here.1);
+            if here.0 > best.0 {
+                best = (here.0, s);
+            }
+        }
+        // The greatest depth lies between the neighbours of the best sample, or at it.
+        let (mut lo, mut hi) = ((best.1 - step).max(part.s[0]), (best.1 + step).min(part.s[1]));
+        for _ in 0..60 {
+            let (m, n) = (lo + (hi - lo) / 3.0, hi - (hi - lo) / 3.0);
+            if depth(m).0 < depth(n).0 { lo = m } else { hi = n }
+        }
+        for s in [best.1, 0.5 * (lo + hi)] {
+            let here = depth(s);
+            if here.0 > deepest.0 {
+                deepest = here;
+            }
+        }
+    }
+    let (depth, place, by) = deepest;
+    let foot = sheet.index.segment(by).foot(place.truncate());
+    Buried {
+        chain,
+        from,
+        to,
+        depth,
+        at: sheet.network.world(place).truncate(),
+        by_chain: sheet.network.edges[by as usize].given[0].chain as usize,
+        by_station: stations.of(by as usize, foot),
+        free_slope: free_slope(sheet, &samples),
+    }
+}
+
+/// The least slope at which no other part covers the samples: the greatest `(z_q − z_p)/|p − q|` over points `q` of the line,
+/// found by Dinkelbach's iteration: the `q` that is highest at the present slope gives the next one.
+fn free_slope(sheet: &Sheet, samples: &[DVec3]) -> Option<f64> {
+    const STEPS: usize = 60;
+    let mut slope = sheet.k;
+    for p in samples {
+        for _ in 0..STEPS {
+            let mut best = (0.0, 0.0);
+            for edge in &sheet.network.edges {
+                let (a, b) = (sheet.network.nodes[edge.a as usize], sheet.network.nodes[edge.b as usize]);
+                let segment = Segment::new(a, b, slope);
+                let foot = segment.point(segment.foot(p.truncate()));
+                let distance = foot.truncate().distance(p.truncate());
+                let rise = foot.z - p.z;
+                if rise - slope * distance > best.0 {
+                    best = (rise - slope * distance, rise / distance);
+                }
+            }
+            if best.0 <= 1e-12 * (1.0 + p.z.abs()) {
+                break;
+            }
+            slope = best.1;
+            if slope >= STEEPEST {
+                return None;
+            }
+        }
+    }
+    Some(slope)
+}
+
+impl Found {
+    /// A note on stretches beyond the end of the slope.
+    pub(crate) fn below_note(&self, design: &Design) -> Option<Note> {
+        let length: f64 = self.below.iter().map(|b| b.2 - b.1).sum();
+        let word = if design.sheet == SheetKind::Falling { "below" } else { "above" };
+        (!self.below.is_empty()).then(|| {
+            Note::new(
+                "line-beyond-end",
+                format!("{length:.3} of the line in {} stretches lies {word} the end of the slope and has none", self.below.len()),
+            )
+        })
+    }
+}
+
+/// Stations along the given chains of places on edges.
+struct Stations {
+    by_chain: Vec<Vec<f64>>,
+    /// `(s, station)` along each edge.
+    on_edge: Vec<Vec<(f64, f64)>>,
+}
+
+impl Stations {
+    fn new(line: &Line, network: &Network) -> Self {
+        let by_chain: Vec<Vec<f64>> = line.chains.iter().map(|c| c.stations()).collect();
+        let mut stations = Self { by_chain, on_edge: Vec::new() };
+        for edge in &network.edges {
+            let length = network.nodes[edge.a as usize].truncate().distance(network.nodes[edge.b as usize].truncate());
+            let mut marks = vec![(0.0, stations.at(edge.given[0]))];
+            marks.extend(edge.inner.iter().map(|p| (p.s, stations.at(p.given))));
+            marks.push((length, stations.at(edge.given[1])));
+            stations.on_edge.push(marks);
+        }
+        stations
+    }
+
+    /// Station of a given vertex; of a ring's first vertex after its last one, the ring's length.
+    fn at(&self, given: Given) -> f64 {
+        let chain = &self.by_chain[given.chain as usize];
+        let vertex = given.vertex as usize;
+        if vertex < chain.len() { chain[vertex] } else { chain[vertex % (chain.len() - 1)] }
+    }
+
+    /// Station of the place `s` along edge `e`.
+    fn of(&self, e: usize, s: f64) -> f64 {
+        let marks = &self.on_edge[e];
+        let i = marks.partition_point(|m| m.0 < s).clamp(1, marks.len() - 1);
+        let ((s0, a), (s1, b)) = (marks[i - 1], marks[i]);
+        // An edge of a simplified ring may run over the first vertex: there the station starts again.
+        let b = if b < a { b + self.by_chain.iter().map(|c| c[c.len() - 1]).fold(0.0, f64::max) } else { b };
+        a + (b - a) * ((s - s0) / (s1 - s0)).clamp(0.0, 1.0)
+    }
+}

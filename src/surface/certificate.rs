@@ -1,0 +1,155 @@
+//! The certificate: figures measured on the very mesh that is written.
+
+use super::{Body, SurfaceError};
+use crate::mesh::check::{self, HalfEdges};
+use crate::model::{Design, Line, Part};
+use crate::sheet::Heights;
+use crate::slope::closure::Closure;
+use crate::slope::network::twin;
+use crate::slope::trim::Sheet;
+use glam::DVec2;
+
+/// Triangles lower than this (length units) are too small for an angle.
+const MEASURABLE_HEIGHT: f64 = 1e-4;
+
+/// Bounds of the slope (degrees): in planar strips, on cones.
+const STRIP_BOUND: f64 = 0.01;
+const CONE_BOUND: f64 = 0.1;
+
+/// Triangles whose heights are compared with the closed form of the given line: at their corners and centroid.
+const HEIGHT_SAMPLES: usize = 2048;
+
+/// Rounding allowed on top of the tolerance, relative to the largest coordinate.
+const ROUNDING: f64 = 1e-12;
+
+/// What was measured.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Certificate {
+    /// Whether every piece of crease has its counterpart.
+    pub paired: bool,
+    /// Largest deviation of a strip triangle from the slope, degrees.
+    pub strip_max_deviation_deg: f64,
+    /// Largest deviation of a triangle of a cone sector, degrees.
+    pub sector_max_deviation_deg: f64,
+    /// Slope triangles off by more than 0.1°.
+    pub triangles_beyond_0_1deg: usize,
+    /// Largest difference between the mesh and the closed form of the given line, at sampled places.
+    pub height_max_deviation: f64,
+    /// Whether the mesh is an oriented manifold without degenerate triangles or unused vertices.
+    pub manifold: bool,
+    /// Pairs of boundary edges that cross in plan.
+    pub overlaps: usize,
+    /// Whether every given segment is a chain of mesh edges, buried stretches aside.
+    pub input_edges_kept: bool,
+}
+
+/// Measures the mesh.
+///
+/// # Errors
+/// [`SurfaceError::Unsound`] if a figure is out of bounds.
+pub(crate) fn measure(
+    line: &Line,
+    design: &Design,
+    sheet: &Sheet,
+    body: &Body,
+    edges: &HalfEdges,
+    closure: &Closure,
+) -> Result<Certificate, SurfaceError> {
+    let soundness = check::check(&body.tin.vertices, &body.tin.triangles, edges);
+    let mut certificate = Certificate {
+        paired: true,
+        manifold: soundness.manifold(),
+        overlaps: soundness.overlaps,
+        input_edges_kept: edges_kept(sheet, body, edges, closure),
+        height_max_deviation: height_deviation(line, design, body),
+        ..Certificate::default()
+    };
+    measure_slopes(design, body, &mut certificate);
+    let scale = body.tin.vertices.iter().fold(1.0_f64, |m, p| m.max(p.abs().max_element()));
+    let place = |p: DVec2| {
+        let p = body.tin.frame.to_world(p.extend(0.0));
+        format!("({:.3}, {:.3})", p.x, p.y)
+    };
+    let flaw = if !certificate.manifold {
+        Some(format!(
+            "{} triangles turned over or degenerate, {} edges used twice, {} unused vertices",
+            soundness.turned, soundness.repeated_edges, soundness.unused
+        ))
+    } else if let Some(at) = soundness.overlap_at {
+        Some(format!("its boundary crosses itself {} times, first near {}", soundness.overlaps, place(at)))
+    } else if certificate.strip_max_deviation_deg > STRIP_BOUND {
+        Some(format!("a strip triangle is {:.4}° off the slope", certificate.strip_max_deviation_deg))
+    } else if certificate.sector_max_deviation_deg > CONE_BOUND {
+        Some(format!("a cone triangle is {:.4}° off the slope", certificate.sector_max_deviation_deg))
+    } else if certificate.height_max_deviation > design.tolerance + ROUNDING * scale {
+        Some(format!("a height is {:.6} off the sheet, tolerance {}", certificate.height_max_deviation, design.tolerance))
+    } else if !certificate.input_edges_kept {
+        Some("a segment of the line is not an edge of the mesh".into())
+    } else {
+        None
+    };
+    match flaw {
+        Some(what) => Err(SurfaceError::Unsound { what }),
+        None => Ok(certificate),
+    }
+}
+
+fn measure_slopes(design: &Design, body: &Body, certificate: &mut Certificate) {
+    let alpha = design.slope.ratio().atan();
+    for (t, &on_cone) in body.on_cone.iter().enumerate() {
+        let [a, b, c] = body.tin.corners(t);
+        if a.z.max(b.z).max(c.z) - a.z.min(b.z).min(c.z) <= MEASURABLE_HEIGHT {
+            continue;
+        }
+        let normal = (b - a).cross(c - a);
+        let deviation = (normal.truncate().length().atan2(normal.z) - alpha).abs().to_degrees();
+        let worst =
+            if on_cone { &mut certificate.sector_max_deviation_deg } else { &mut certificate.strip_max_deviation_deg };
+        *worst = worst.max(deviation);
+        certificate.triangles_beyond_0_1deg += usize::from(deviation > 0.1);
+    }
+}
+
+/// Compares sampled slope triangles with the sheet of the given line.
+fn height_deviation(line: &Line, design: &Design, body: &Body) -> f64 {
+    let slopes = body.tin.parts.iter().filter(|&&p| p != Part::Platform).count();
+    let step = slopes.div_ceil(HEIGHT_SAMPLES).max(1);
+    let heights = Heights::new(line, design.slope, design.sheet);
+    let mut points = Vec::new();
+    for t in (0..slopes).step_by(step) {
+        let corners = body.tin.corners(t);
+        points.extend(corners);
+        points.push((corners[0] + corners[1] + corners[2]) / 3.0);
+    }
+    let places: Vec<DVec2> = points.iter().map(|&p| body.tin.frame.to_world(p).truncate()).collect();
+    heights.many(&places).iter().zip(&points).map(|(h, p)| (h - p.z).abs()).fold(0.0, f64::max)
+}
+
+/// Whether consecutive points of every edge with a wanted side are joined by mesh edges, where the edge shows.
+fn edges_kept(sheet: &Sheet, body: &Body, edges: &HalfEdges, closure: &Closure) -> bool {
+    sheet.network.edges.iter().zip(&body.edge_points).enumerate().all(|(e, (edge, points))| {
+        if !(edge.wanted[0] || edge.wanted[1]) {
+            return true;
+        }
+        points.windows(2).all(|w| {
+            let used = w.iter().all(|p| p.id != u32::MAX);
+            let joined = used && (edges.has(w[0].id, w[1].id) || edges.has(w[1].id, w[0].id));
+            joined || covered(sheet, closure, e as u32, [w[0].s, w[1].s])
+        })
+    })
+}
+
+/// Whether a covered stretch of edge `e` meets the one between two of its points.
+fn covered(sheet: &Sheet, closure: &Closure, e: u32, [from, to]: [f64; 2]) -> bool {
+    covered_ranges(sheet, closure, e).iter().any(|r| r[0] < to && from < r[1])
+}
+
+fn covered_ranges(sheet: &Sheet, closure: &Closure, e: u32) -> Vec<[f64; 2]> {
+    let Some(f) = [2 * e, 2 * e + 1].into_iter().find(|&f| !closure.knots[f as usize].is_empty()) else { return Vec::new() };
+    let length = sheet.facet(f).tau_max;
+    closure.knots[f as usize]
+        .windows(2)
+        .filter(|w| w[0].right == twin(f))
+        .map(|w| if f % 2 == 0 { [w[0].tau, w[1].tau] } else { [length - w[1].tau, length - w[0].tau] })
+        .collect()
+}

@@ -1,0 +1,382 @@
+//! The finished surface: everything about one line and one design, from the network to the certificate.
+
+mod buried;
+mod certificate;
+mod curves;
+mod flats;
+mod solve;
+
+pub use buried::Buried;
+pub use certificate::Certificate;
+
+use crate::kernel::sum::Sum;
+use crate::mesh::check::HalfEdges;
+use crate::mesh::region::RegionError;
+use crate::mesh::volume;
+use crate::model::{Design, Extent, Line, LineFeature, Note, Part, Sheet as SheetKind, Tin};
+use crate::slope::emit::{self, Slopes};
+use crate::slope::fan::Fans;
+use crate::slope::levels::{self, Levels};
+use crate::slope::network::Network;
+use crate::slope::refine::Cut;
+use crate::slope::trim::{self, Sheet};
+use glam::DVec3;
+
+/// Share of the tolerance that simplifying the line may use.
+const SIMPLIFY_SHARE: f64 = 1.0 / 3.0;
+
+/// Share of the tolerance that chords of cones may use. The rest is reserve.
+const CHORD_SHARE: f64 = 1.0 / 3.0;
+
+/// How far beyond the outer distance the sheet is followed, relative to its depth there and at least this many length units.
+const BEYOND_REACH: f64 = 1e-3;
+
+/// Why there is no surface. Places are plan coordinates in the world.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SurfaceError {
+    /// The whole line lies beyond the end of the slope.
+    #[error(
+        "no part of the line lies {} elevation {end}\\n   = the line lies between {low} and {high}\\n   = help: choose an elevation {} {high_or_low}",
+        if *.rising { "below" } else { "above" }, if *.rising { "above" } else { "below" }, high_or_low = if *.rising { low } else { high }
+    )]
+    NothingToBuild {
+        /// Where the slope was to end.
+        end: f64,
+        /// Lowest elevation of the line.
+        low: f64,
+        /// Highest elevation of the line.
+        high: f64,
+        /// Whether the slope rises.
+        rising: bool,
+    },
+    /// No side of any line is wanted.
+    #[error("there is no side to build on\\n   = `inside` and `outside` need a ring\\n   = help: close the line (`--closed`), or choose `--side left`, `right` or `both`")]
+    NoSide,
+    /// The interval asks for too many levels.
+    #[error("an interval of {interval} would give {count:.0} levels\\n   = at most {limit} are cut\\n   = help: use an interval of {least} or more", limit = levels::MAX_LEVELS)]
+    TooManyLevels {
+        /// The interval asked for.
+        interval: f64,
+        /// How many levels that would be.
+        count: f64,
+        /// The least interval that works.
+        least: f64,
+    },
+    /// A platform lies below the slope of another part.
+    #[error("the slope of one part covers the platform of another near ({x:.3}, {y:.3})\\n   = {what}\\n   = help: build the parts one by one, move them apart, or use a steeper slope")]
+    PlatformCovered {
+        /// Place.
+        x: f64,
+        /// Place.
+        y: f64,
+        /// The covered stretch in words.
+        what: String,
+    },
+    /// An outline could not be filled.
+    #[error("the {part} cannot be triangulated near ({x:.3}, {y:.3}): {cause}")]
+    Flat {
+        /// Platform or floor.
+        part: &'static str,
+        /// Place.
+        x: f64,
+        /// Place.
+        y: f64,
+        /// What is wrong.
+        cause: RegionError,
+    },
+    /// The facets do not glue to one surface.
+    #[error("the surface could not be closed near ({x:.3}, {y:.3})\\n   = {unpaired} of {arcs} pieces of creases have no counterpart\\n   = help: try another `--tolerance`; this is a limit of the program, please report the line")]
+    Unclosed {
+        /// Place.
+        x: f64,
+        /// Place.
+        y: f64,
+        /// Creases without a counterpart.
+        unpaired: usize,
+        /// All creases.
+        arcs: usize,
+    },
+    /// The mesh failed its own check.
+    #[error("the mesh failed its check: {what}\\n   = help: try another `--tolerance`; this is a limit of the program, please report the line")]
+    Unsound {
+        /// Which figure is out of bounds.
+        what: String,
+    },
+    /// The caller asked to stop.
+    #[error("interrupted")]
+    Cancelled,
+}
+
+/// What a long run tells its caller.
+pub trait Watch: Sync {
+    /// A stage begins.
+    fn stage(&self, _name: &'static str) {}
+
+    /// Whether to stop.
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
+/// Nobody watches.
+impl Watch for () {}
+
+/// Plan and true areas.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Areas {
+    /// Plan area of everything.
+    pub plan: f64,
+    /// True area of everything.
+    pub slope: f64,
+    /// True area of falling slopes.
+    pub fill_slope: f64,
+    /// True area of rising slopes.
+    pub cut_slope: f64,
+    /// True area of platforms and floors.
+    pub platform: f64,
+}
+
+/// Volumes against a horizontal plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Volumes {
+    /// Volume where the surface lies below the plane.
+    pub cut: f64,
+    /// Volume where it lies above.
+    pub fill: f64,
+    /// Bound for the error of either through simplification and chords.
+    pub error_bound: f64,
+    /// Elevation of the plane.
+    pub reference: f64,
+    /// Greatest depth below the plane.
+    pub cut_max: f64,
+    /// Greatest height above it.
+    pub fill_max: f64,
+}
+
+/// A surface of constant slope with its platform, and what was measured on it.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// The mesh.
+    pub tin: Tin,
+    /// Level curves, creases, hinge and boundary.
+    pub lines: Vec<LineFeature>,
+    /// Elevations of the level curves, from the top down.
+    pub levels: Vec<f64>,
+    /// Given vertices moved onto a chord.
+    pub simplified: usize,
+    /// Given vertices that lie on the straight line between their neighbours.
+    pub collinear: usize,
+    /// Largest displacement of a simplified vertex, `|Δz| + k·|Δplan|`.
+    pub simplified_max: f64,
+    /// Stretches of the line below the slope of another part.
+    pub buried: Vec<Buried>,
+    /// What was measured on the mesh.
+    pub certificate: Certificate,
+    /// Areas.
+    pub areas: Areas,
+    /// Volumes against the reference plane.
+    pub volumes: Volumes,
+    /// Things worth knowing.
+    pub notes: Vec<Note>,
+}
+
+/// Builds the surface of `design` on `line`; `reference` is the elevation of the plane for volumes, by default the one where
+/// the slopes end (the highest rim vertex of a falling slope inside a ring, the lowest of a rising one).
+///
+/// Expects a validated line, every segment flatter than the slope.
+///
+/// # Errors
+/// See [`SurfaceError`]; a surface whose certificate fails is an error, never a result.
+pub fn build(line: &Line, design: &Design, reference: Option<f64>, watch: &dyn Watch) -> Result<Surface, SurfaceError> {
+    let k = design.slope.ratio();
+    let go_on = |stage| {
+        watch.stage(stage);
+        if watch.cancelled() { Err(SurfaceError::Cancelled) } else { Ok(()) }
+    };
+    go_on("line")?;
+    let network = Network::new(line, design, SIMPLIFY_SHARE * design.tolerance);
+    if !network.edges.iter().any(|e| e.wanted[0] || e.wanted[1]) {
+        return Err(SurfaceError::NoSide);
+    }
+    let ends = Ends::new(&network, line, design)?;
+    let levels = ends.levels(design)?;
+    let fans = Fans::new(&network, k);
+    let index = trim::index_of(&network, k);
+    let sheet = Sheet::new(&network, &fans, &index, k, ends.closure);
+    go_on("creases")?;
+    let solved = solve::solve(&sheet, watch)?;
+    go_on("mesh")?;
+    let cut = Cut { levels: &levels, chord: CHORD_SHARE * design.tolerance, reach: ends.reach };
+    let slopes = emit::emit(&sheet, &solved.closure, &solved.arcs, &cut);
+    if let Some(&f) = slopes.failed.first() {
+        let p = network.world(sheet.facet(f).foot(0.0));
+        return Err(SurfaceError::Unsound { what: format!("a strip at ({:.3}, {:.3}) could not be triangulated", p.x, p.y) });
+    }
+    let buried = buried::stretches(line, &sheet, &solved.closure);
+    let flats = flats::fill(line, design, &network, &slopes, &buried.stretches)?;
+    go_on("check")?;
+    let body = Body::new(&network, design, &slopes, &flats);
+    let edges = HalfEdges::new(body.tin.vertices.len(), &body.tin.triangles);
+    let certificate = certificate::measure(line, design, &sheet, &body, &edges, &solved.closure)?;
+    let lines = curves::lines(line, design, &network, &levels, &body, &edges);
+    let areas = body.areas();
+    let volumes = body.volumes(line, design, reference, &ends, network.simplified_max, cut.chord);
+    let mut notes = Vec::new();
+    notes.extend(buried.below_note(design));
+    Ok(Surface {
+        lines,
+        levels: levels.heights.iter().map(|c| network.sign * c).collect(),
+        simplified: network.simplified,
+        collinear: network.collinear,
+        simplified_max: network.simplified_max,
+        buried: buried.stretches,
+        certificate,
+        areas,
+        volumes,
+        notes,
+        tin: body.tin,
+    })
+}
+
+/// Where the sheet stops, heights of the falling sheet.
+struct Ends {
+    /// Plane down to which facets are closed.
+    closure: f64,
+    /// Lowest height of the surface.
+    lowest: f64,
+    /// Highest height of the line.
+    top: f64,
+    /// Length of rulings, where that is limited.
+    reach: Option<f64>,
+}
+
+impl Ends {
+    fn new(network: &Network, line: &Line, design: &Design) -> Result<Self, SurfaceError> {
+        let k = design.slope.ratio();
+        let (low, high) = line.elevation_range();
+        let (bottom, top) = if network.sign > 0.0 { (low, high) } else { (-high, -low) };
+        let at_reach = |reach: f64| {
+            let lowest = bottom - k * reach;
+            let closure = lowest - BEYOND_REACH * (k * reach).max(1.0);
+            Self { closure, lowest, top, reach: Some(reach) }
+        };
+        Ok(match design.extent {
+            Extent::Elevation(z) => {
+                let end = network.sign * z;
+                if end >= top {
+                    return Err(SurfaceError::NothingToBuild { end: z, low, high, rising: design.sheet == SheetKind::Rising });
+                }
+                Self { closure: end, lowest: end, top, reach: None }
+            }
+            Extent::Height(h) => at_reach(h / k),
+            Extent::Distance(d) => at_reach(d),
+        })
+    }
+
+    fn levels(&self, design: &Design) -> Result<Levels, SurfaceError> {
+        let range = self.top - self.lowest;
+        let interval = design.interval.unwrap_or_else(|| levels::round_interval(range));
+        let count = (range / interval).floor();
+        if count > levels::MAX_LEVELS as f64 {
+            let least = range / levels::MAX_LEVELS as f64;
+            // Two digits, rounded up.
+            let unit = 10_f64.powf(least.log10().floor() - 1.0);
+            return Err(SurfaceError::TooManyLevels { interval, count, least: (least / unit).ceil() * unit });
+        }
+        Ok(Levels::between(self.lowest, self.top, interval))
+    }
+}
+
+/// The mesh with what is known of its triangles.
+pub(crate) struct Body {
+    tin: Tin,
+    /// Whether a triangle belongs to a cone; shorter than the list of triangles, flats come last.
+    on_cone: Vec<bool>,
+    /// Mesh edges with a meaning, in mesh numbers.
+    traces: Vec<emit::Traced>,
+    /// Points of each edge of the network from end to end, in mesh numbers, with the given vertex where there is one.
+    edge_points: Vec<Vec<emit::EdgePoint>>,
+}
+
+impl Body {
+    fn new(network: &Network, design: &Design, slopes: &Slopes, flats: &[[u32; 3]]) -> Self {
+        let mut number = vec![u32::MAX; slopes.points.len()];
+        for &v in slopes.triangles.as_flattened().iter().chain(flats.as_flattened()) {
+            number[v as usize] = 0;
+        }
+        let mut vertices = Vec::with_capacity(slopes.points.len());
+        for (v, id) in number.iter_mut().enumerate().filter(|(_, id)| **id == 0) {
+            *id = vertices.len() as u32;
+            let p = slopes.points[v];
+            vertices.push(DVec3::new(p.x, p.y, network.sign * p.z));
+        }
+        let renumber = |t: &[u32; 3]| t.map(|v| number[v as usize]);
+        let part = if design.sheet == SheetKind::Falling { Part::FillSlope } else { Part::CutSlope };
+        let triangles: Vec<[u32; 3]> = slopes.triangles.iter().chain(flats).map(renumber).collect();
+        let mut parts = vec![part; slopes.triangles.len()];
+        parts.resize(triangles.len(), Part::Platform);
+        let used = |ids: &[u32]| ids.iter().all(|&v| number[v as usize] != u32::MAX);
+        let mut traces: Vec<emit::Traced> = slopes
+            .traces
+            .iter()
+            .filter(|(_, ends)| used(ends))
+            .map(|&(kind, ends)| {
+                let [a, b] = ends.map(|v| number[v as usize]);
+                (kind, [a.min(b), a.max(b)])
+            })
+            .collect();
+        traces.sort_unstable();
+        traces.dedup();
+        let edge_points = slopes
+            .edge_points
+            .iter()
+            .zip(&network.edges)
+            .map(|(inner, edge)| {
+                let end = |node: u32, given, s| emit::EdgePoint { s, id: number[node as usize], given: Some(given) };
+                let length = network.nodes[edge.a as usize].truncate().distance(network.nodes[edge.b as usize].truncate());
+                let inner = inner.iter().map(|p| emit::EdgePoint { id: number[p.id as usize], ..*p });
+                std::iter::once(end(edge.a, edge.given[0], 0.0)).chain(inner).chain([end(edge.b, edge.given[1], length)]).collect()
+            })
+            .collect();
+        let tin = Tin { frame: network.frame, vertices, triangles, parts };
+        Self { tin, on_cone: slopes.on_cone.clone(), traces, edge_points }
+    }
+
+    fn areas(&self) -> Areas {
+        let mut plan = Sum::default();
+        let mut parts = [Sum::default(); 4];
+        for t in 0..self.tin.triangles.len() {
+            let corners = self.tin.corners(t);
+            plan.add(volume::plan_area(corners));
+            let [a, b, c] = corners;
+            parts[self.tin.parts[t] as usize].add(0.5 * (b - a).cross(c - a).length());
+        }
+        let of = |part: Part| parts[part as usize].value();
+        let (platform, fill_slope, cut_slope) = (of(Part::Platform), of(Part::FillSlope), of(Part::CutSlope));
+        Areas { plan: plan.value(), slope: platform + fill_slope + cut_slope, fill_slope, cut_slope, platform }
+    }
+
+    fn volumes(&self, line: &Line, design: &Design, reference: Option<f64>, ends: &Ends, moved: f64, chord: f64) -> Volumes {
+        let falling = design.sheet == SheetKind::Falling;
+        let (low, high) = line.elevation_range();
+        let inside = design.side_of_rings == crate::model::Side::Inside && line.chains.iter().all(|c| c.closed());
+        let plane = reference.unwrap_or_else(|| match (inside, design.extent) {
+            (true, _) => if falling { high } else { low },
+            (false, Extent::Elevation(z)) => z,
+            (false, _) => if falling { ends.lowest } else { -ends.lowest },
+        });
+        let count = self.tin.triangles.len();
+        let found = volume::above_plane((0..count).map(|t| self.tin.corners(t)), plane);
+        let area = |range: std::ops::Range<usize>| -> f64 { range.map(|t| volume::plan_area(self.tin.corners(t))).collect::<Sum>().value() };
+        let cones = (0..self.on_cone.len()).filter(|&t| self.on_cone[t]).map(|t| volume::plan_area(self.tin.corners(t)));
+        let error_bound = moved * area(0..count) + chord * cones.collect::<Sum>().value();
+        Volumes {
+            cut: found.cut,
+            fill: found.fill,
+            error_bound,
+            reference: plane,
+            cut_max: found.cut_max,
+            fill_max: found.fill_max,
+        }
+    }
+}
