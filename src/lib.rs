@@ -3,9 +3,11 @@
 //! Data flows one way: **read → validate → sheet → slope → mesh → write / report**. Each module uses only those that stand
 //! above it in this list; `pipeline` alone knows the order. See `docs/architecture.md`.
 
+pub mod cli;
 pub mod kernel;
 pub mod mesh;
 pub mod model;
+pub mod pipeline;
 pub mod read;
 pub mod report;
 pub mod sheet;

@@ -1,3 +1,7 @@
 //! The `slopegen` program: parse, run, report, exit code.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    slopegen::cli::run(std::env::args_os())
+}

@@ -1,0 +1,187 @@
+//! Arguments as typed: what the parser can check by itself, and the words of the help.
+
+use super::help;
+use clap::{ArgAction, ArgGroup, Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+/// The whole command line, for those who generate from it.
+pub fn command() -> clap::Command {
+    Arguments::command()
+}
+
+/// Surfaces of constant slope through a 3D line, for earthworks
+#[derive(Debug, Parser)]
+#[command(name = "slopegen", version, arg_required_else_help = true, after_help = help::AFTER, max_term_width = 110)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Build the surface and write mesh, line work and report
+    #[command(after_help = help::AFTER_BUILD, arg_required_else_help = true)]
+    Build(Box<BuildArgs>),
+    /// Exact heights of the surface at points or as a raster
+    #[command(after_help = help::AFTER_SAMPLE, arg_required_else_help = true)]
+    Sample(Box<SampleArgs>),
+}
+
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("end").args(["to_elevation", "height", "distance"]))]
+pub(super) struct BuildArgs {
+    #[command(flatten)]
+    pub(super) input: InputArgs,
+    #[command(flatten)]
+    pub(super) slope: SlopeArgs,
+
+    /// Side of the line to build on [default: both for lines, outside for rings]
+    ///
+    /// Left and right are seen in the order of the vertices; inside and outside need rings.
+    #[arg(long, value_enum, help_heading = help::SURFACE)]
+    pub(super) side: Option<SideArg>,
+    /// End the slopes at elevation Z
+    ///
+    /// Without an end, slopes go 10 length units beyond the lowest vertex (the highest, for slopes that rise).
+    #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = help::SURFACE)]
+    pub(super) to_elevation: Option<String>,
+    /// End the slopes H below (above) where they leave the line
+    #[arg(long, value_name = "H", allow_negative_numbers = true, help_heading = help::SURFACE)]
+    pub(super) height: Option<String>,
+    /// End the slopes D from the line, in plan along the line of steepest descent
+    #[arg(long, value_name = "D", allow_negative_numbers = true, help_heading = help::SURFACE)]
+    pub(super) distance: Option<String>,
+    /// Height between level curves [default: a round number that gives 10 to 25 of them]
+    #[arg(long, value_name = "DZ", allow_negative_numbers = true, help_heading = help::SURFACE)]
+    pub(super) interval: Option<String>,
+    /// Greatest height error of the whole mesh
+    #[arg(long, value_name = "T", default_value = "0.01", allow_negative_numbers = true, help_heading = help::SURFACE)]
+    pub(super) tolerance: String,
+    /// Take volumes against the plane at elevation Z [default: where the slopes end]
+    #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = help::SURFACE)]
+    pub(super) reference: Option<String>,
+    /// Refuse lines of which a part lies buried under the slope of another part
+    #[arg(long, help_heading = help::SURFACE)]
+    pub(super) strict: bool,
+
+    /// Write the mesh; .obj or .ply, may be repeated [default: the input's name with .obj, in the working folder]
+    #[arg(short, long, value_name = "FILE", help_heading = help::OUTPUT)]
+    pub(super) output: Vec<OsString>,
+    /// Write the report; .json or .txt, may be repeated [default: as text to standard output]
+    #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
+    pub(super) report: Vec<OsString>,
+    /// Write level curves, creases, hinge and boundary; .geojson, may be repeated
+    #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
+    pub(super) lines: Vec<OsString>,
+
+    #[command(flatten)]
+    pub(super) running: Running,
+}
+
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("where").args(["at", "raster"]).required(true))]
+pub(super) struct SampleArgs {
+    #[command(flatten)]
+    pub(super) input: InputArgs,
+    #[command(flatten)]
+    pub(super) slope: SlopeArgs,
+
+    /// Heights at the points of a text file with columns x and y; - is standard input
+    #[arg(long, value_name = "POINTS", help_heading = help::PLACES)]
+    pub(super) at: Option<PathBuf>,
+    /// Columns of POINTS without a header, such as xy or pen
+    #[arg(long, value_name = "ORDER", requires = "at", conflicts_with = "raster", help_heading = help::PLACES)]
+    pub(super) at_order: Option<String>,
+    /// Heights at the nodes of a grid, written as an ESRI ASCII raster (.asc); - is standard output
+    #[arg(long, value_name = "FILE", requires = "cell", conflicts_with = "output", help_heading = help::PLACES)]
+    pub(super) raster: Option<OsString>,
+    /// Distance of the nodes of the grid
+    #[arg(long, value_name = "C", requires = "raster", conflicts_with = "at", allow_negative_numbers = true, help_heading = help::PLACES)]
+    pub(super) cell: Option<String>,
+    /// Box of the grid [default: that of the line, grown by a tenth of its longer side or by 5 cells]
+    #[arg(
+        long = "box",
+        value_name = "XMIN,YMIN,XMAX,YMAX",
+        requires = "raster",
+        conflicts_with = "at",
+        allow_hyphen_values = true,
+        help_heading = help::PLACES
+    )]
+    pub(super) area: Option<String>,
+
+    /// Write the points to a .csv file instead of standard output
+    #[arg(short, long, value_name = "FILE", help_heading = help::OUTPUT)]
+    pub(super) output: Option<OsString>,
+
+    #[command(flatten)]
+    pub(super) running: Running,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct InputArgs {
+    /// The line: .geojson, .json, .csv, .txt, .tsv or .xyz; - is standard input
+    #[arg(value_name = "INPUT")]
+    pub(super) input: PathBuf,
+    /// Format of the input [default: by its extension]
+    #[arg(long, value_enum, value_name = "FORMAT", help_heading = help::INPUT)]
+    pub(super) input_format: Option<FormatArg>,
+    /// Columns of a text file without a header, such as xyz or pnezd
+    ///
+    /// x or e easting, y or n northing, z elevation, l line id, p point number, d description, _ a column to skip.
+    #[arg(long, value_name = "ORDER", help_heading = help::INPUT)]
+    pub(super) csv_order: Option<String>,
+    /// Make rings of lines that do not end where they begin
+    #[arg(long, help_heading = help::INPUT)]
+    pub(super) closed: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct SlopeArgs {
+    /// The side slope: 1:1.5, 2H:1V, 1in2, 50% or 26.57deg
+    #[arg(short, long, value_name = "S", allow_hyphen_values = true, help_heading = help::SURFACE)]
+    pub(super) slope: Option<String>,
+    /// Slope of surfaces that rise from the line, instead of --slope
+    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = help::SURFACE)]
+    pub(super) cut_slope: Option<String>,
+    /// Slope of surfaces that fall from the line, instead of --slope
+    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = help::SURFACE)]
+    pub(super) fill_slope: Option<String>,
+    /// Whether the surface falls from the line (fill) or rises (cut)
+    #[arg(long, value_enum, default_value = "down", help_heading = help::SURFACE)]
+    pub(super) direction: DirectionArg,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Running {
+    /// Print errors only
+    #[arg(short, long, help_heading = help::RUNNING)]
+    pub(super) quiet: bool,
+    /// Print how long each stage took
+    #[arg(short, long, conflicts_with = "quiet", action = ArgAction::SetTrue, help_heading = help::RUNNING)]
+    pub(super) verbose: bool,
+    /// Number of threads [default: one for each processor]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = help::RUNNING)]
+    pub(super) threads: Option<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum SideArg {
+    Left,
+    Right,
+    Both,
+    Inside,
+    Outside,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum DirectionArg {
+    Down,
+    Up,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum FormatArg {
+    Geojson,
+    Csv,
+}

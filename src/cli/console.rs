@@ -1,0 +1,129 @@
+//! What people see while the program runs: notes, progress, times. All of it on standard error.
+
+use super::args::Running;
+use crate::model::Note;
+use crate::pipeline::{Observer, WRITING};
+use crate::surface::Watch;
+use crate::write::Target;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::{IsTerminal as _, Write as _};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Notes on the result itself rather than on how the input was read.
+const WARNINGS: [&str; 2] = ["buried", "line-beyond-end"];
+
+/// Time between two frames of the progress display.
+const FRAME: Duration = Duration::from_millis(100);
+
+/// Writes a line to standard error. Where that is closed, there is nobody to be told.
+fn say(text: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
+}
+
+/// Tells why the program failed.
+pub(super) fn error(message: &str) {
+    say(&format!("error: {}", printable(message)));
+}
+
+/// Whether what goes to a target is seen at once.
+pub(super) fn is_terminal(target: &Target) -> bool {
+    *target == Target::Stdout && std::io::stdout().is_terminal()
+}
+
+/// Text that may hold names from files, without characters that would move the cursor or colour a terminal.
+fn printable(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() && c != '\n' { ' ' } else { c }).collect()
+}
+
+/// Shows what goes on, as much as was asked for.
+#[derive(Debug)]
+pub(super) struct Console {
+    quiet: bool,
+    verbose: bool,
+    /// Notes are seen elsewhere: in a report on the terminal.
+    notes_elsewhere: bool,
+    progress: Option<ProgressBar>,
+    stage: Mutex<Option<(&'static str, Instant)>>,
+}
+
+impl Console {
+    /// A console; `notes_elsewhere` where a report shows the notes on the same terminal.
+    pub(super) fn new(running: &Running, notes_elsewhere: bool) -> Self {
+        let progress = (!running.quiet && std::io::stderr().is_terminal()).then(|| {
+            let bar = ProgressBar::new_spinner();
+            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {
+                bar.set_style(style);
+            }
+            bar.enable_steady_tick(FRAME);
+            bar
+        });
+        Self { quiet: running.quiet, verbose: running.verbose, notes_elsewhere, progress, stage: Mutex::default() }
+    }
+
+    /// Tells of a file that has appeared; `size` may be empty.
+    pub(super) fn wrote(&self, target: &Target, size: &str) {
+        if !self.quiet {
+            let colon = if size.is_empty() { "" } else { ": " };
+            self.say(&printable(&format!("wrote {target}{colon}{size}")));
+        }
+    }
+
+    /// The work is done: the last stage has ended.
+    pub(super) fn finish(&self) {
+        self.end_stage(None);
+        if let Some(bar) = &self.progress {
+            bar.finish_and_clear();
+        }
+    }
+
+    /// Writes a line above the progress display.
+    fn say(&self, text: &str) {
+        match &self.progress {
+            Some(bar) => bar.suspend(|| say(text)),
+            None => say(text),
+        }
+    }
+
+    /// Notes that the stage has changed and, if asked for, how long the one before took.
+    fn end_stage(&self, next: Option<&'static str>) {
+        let mut stage = self.stage.lock().unwrap_or_else(PoisonError::into_inner);
+        let ended = std::mem::replace(&mut *stage, next.map(|name| (name, Instant::now())));
+        drop(stage);
+        if let (true, Some((name, since))) = (self.verbose, ended) {
+            self.say(&format!("{:>9.3} s  {name}", since.elapsed().as_secs_f64()));
+        }
+    }
+}
+
+impl Drop for Console {
+    /// Leaves the terminal clean when the work failed, too.
+    fn drop(&mut self) {
+        if let Some(bar) = &self.progress {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+impl Watch for Console {
+    fn stage(&self, name: &'static str) {
+        self.end_stage(Some(name));
+        if let Some(bar) = &self.progress {
+            // What goes to standard output would mix with the display on the same screen.
+            if name == WRITING && std::io::stdout().is_terminal() {
+                bar.finish_and_clear();
+            } else {
+                bar.set_message(name);
+            }
+        }
+    }
+}
+
+impl Observer for Console {
+    fn note(&self, note: &Note) {
+        if !self.quiet && !self.notes_elsewhere {
+            let kind = if WARNINGS.contains(&note.code) { "warning" } else { "note" };
+            self.say(&printable(&format!("{kind}[{}]: {}", note.code, note.message)));
+        }
+    }
+}

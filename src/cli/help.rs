@@ -1,0 +1,41 @@
+//! Longer texts of the help.
+
+pub(super) const INPUT: &str = "Input";
+pub(super) const SURFACE: &str = "Surface";
+pub(super) const PLACES: &str = "Places";
+pub(super) const OUTPUT: &str = "Output";
+pub(super) const RUNNING: &str = "Running";
+
+pub(super) const AFTER: &str = "\
+Exit codes:
+  0  done
+  1  the work could not be done: bad geometry, nothing to build
+  2  wrong usage
+  3  an input could not be read
+  4  an output could not be written
+  5  the result did not pass its checks
+
+All lengths are in the unit of the input, which must be projected. `slopegen build --help` has examples.";
+
+pub(super) const AFTER_BUILD: &str = "\
+Examples:
+  slopegen build road.geojson --slope 1:1.5
+      embankment on both sides of a road, 10 below its lowest vertex: road.obj, report on standard output
+  slopegen build pad.geojson --slope 1:2 --to-elevation 405 -o pad.ply --lines pad_lines.geojson --report pad.json
+      building pad above level ground, with line work and report
+  slopegen build pit.csv --closed --side inside --slope 45deg --height 6 -o pit.obj
+      excavation inside a rim of surveyed points, 6 deep
+  slopegen build road.geojson --direction up --cut-slope 1:1 --distance 20 --interval 0.5 -o cut.obj
+      cutting along a road, 20 wide on either side
+  cat road.geojson | slopegen build - --input-format geojson --slope 1:1.5 -o - > road.obj
+
+1:1.5 is one vertical to 1.5 horizontal. 1:0.5 could be read either way and is refused: write 1V:0.5H or 1H:0.5V.";
+
+pub(super) const AFTER_SAMPLE: &str = "\
+Examples:
+  slopegen sample road.geojson --slope 1:1.5 --at points.csv -o heights.csv
+  slopegen sample road.geojson --slope 1:1.5 --raster road.asc --cell 0.5
+  slopegen sample pit.csv --closed --slope 1:1 --raster pit.asc --cell 1 --box 500290,5400420,500390,5400500
+  echo 500100,5400200 | slopegen sample road.geojson --slope 1:1.5 --at - --at-order xy
+
+Heights are those of the closed form of the given line, on both sides of it and as far as you ask: nothing is simplified.";

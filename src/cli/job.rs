@@ -1,0 +1,244 @@
+//! Arguments as typed → jobs in which everything is checked that can be without the input.
+
+use super::args::{BuildArgs, DirectionArg, FormatArg, InputArgs, Running, SampleArgs, SideArg, SlopeArgs};
+use super::number::{self, Rule};
+use crate::model::{Extent, Sheet, Side, Slope};
+use crate::pipeline::{Area, BuildJob, Lattice, LineInput, SampleJob, Where, Wishes};
+use crate::read::{ColumnOrder, InputFormat, ReadOptions};
+use crate::report::ReportFormat;
+use crate::write::{MeshFormat, Target, UnknownFormat};
+use glam::DVec2;
+use std::ffi::{OsStr, OsString};
+use std::fmt;
+use std::path::Path;
+
+/// The smallest tolerance, height, distance and cell: what coordinates of lines are told apart by.
+const LEAST_LENGTH: f64 = crate::validate::MERGE_DISTANCE;
+
+/// More threads than any machine this runs on has processors.
+const MOST_THREADS: usize = 1024;
+
+/// Everything wrong with the arguments, without the leading `error: ` of the first.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct UsageErrors(Vec<String>);
+
+impl fmt::Display for UsageErrors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0.join("\nerror: "))
+    }
+}
+
+impl std::error::Error for UsageErrors {}
+
+/// Gathers what is wrong, so that all of it is told at once.
+#[derive(Default)]
+struct Checks(Vec<String>);
+
+impl Checks {
+    /// The value, or `None` after taking down what is wrong with it.
+    fn take<T>(&mut self, result: Result<T, String>) -> Option<T> {
+        result.map_err(|error| self.0.push(error)).ok()
+    }
+
+    fn number(&mut self, option: &str, text: Option<&String>, rule: Rule) -> Option<f64> {
+        text.and_then(|text| self.take(number::read(option, text, rule)))
+    }
+
+    fn format<T>(&mut self, result: Result<T, UnknownFormat>) -> Option<T> {
+        self.take(result.map_err(|error| error.to_string()))
+    }
+
+    fn order(&mut self, option: &str, text: Option<&String>) -> Option<ColumnOrder> {
+        let text = text?;
+        let result = text.parse::<ColumnOrder>();
+        self.take(result.map_err(|error| match error.split_once("; ") {
+            Some((what, help)) => format!("{what}\n  --> {option} {text}\n   = help: {help}"),
+            None => format!("{error}\n  --> {option} {text}"),
+        }))
+    }
+
+    fn slope(&mut self, option: &str, text: Option<&String>) -> Option<Slope> {
+        let text = text?;
+        self.take(text.parse::<Slope>().map_err(|error| {
+            let message = error.to_string();
+            let (what, rest) = message.split_once('\n').unwrap_or((&message, ""));
+            format!("{what}\n  --> {option} {text}\n{rest}").trim_end().to_owned()
+        }))
+    }
+
+    /// The slope and its sheet.
+    fn slopes(&mut self, args: &SlopeArgs) -> Option<(Slope, Sheet)> {
+        let slope = self.slope("--slope", args.slope.as_ref());
+        let cut = self.slope("--cut-slope", args.cut_slope.as_ref());
+        let fill = self.slope("--fill-slope", args.fill_slope.as_ref());
+        let (sheet, own, given, name, verb) = match args.direction {
+            DirectionArg::Down => (Sheet::Falling, fill, args.fill_slope.is_some(), "--fill-slope", "falls"),
+            DirectionArg::Up => (Sheet::Rising, cut, args.cut_slope.is_some(), "--cut-slope", "rises"),
+        };
+        if !given && args.slope.is_none() {
+            self.0.push(format!(
+                "no slope was given for a surface that {verb}\n  --> --slope\n   \
+                 = help: give `--slope` or `{name}`, such as 1:1.5, 2H:1V, 1in2, 50% or 26.57deg"
+            ));
+        }
+        Some((own.or(slope)?, sheet))
+    }
+
+    fn input(&mut self, args: &InputArgs) -> LineInput {
+        let format = args.input_format.map(|format| match format {
+            FormatArg::Geojson => InputFormat::GeoJson,
+            FormatArg::Csv => InputFormat::Csv,
+        });
+        let csv_order = self.order("--csv-order", args.csv_order.as_ref());
+        LineInput { path: args.input.clone(), options: ReadOptions { format, csv_order }, closed: args.closed }
+    }
+
+    fn finish<T>(self, job: Option<T>) -> Result<T, UsageErrors> {
+        match job {
+            Some(job) if self.0.is_empty() => Ok(job),
+            _ => Err(UsageErrors(self.0)),
+        }
+    }
+}
+
+/// The job of `slopegen build`.
+///
+/// # Errors
+/// Everything wrong with the arguments.
+pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
+    let mut checks = Checks::default();
+    let input = checks.input(&args.input);
+    let slope = checks.slopes(&args.slope);
+    let extent = [
+        checks.number("--to-elevation", args.to_elevation.as_ref(), Rule::Coordinate).map(Extent::Elevation),
+        checks.number("--height", args.height.as_ref(), Rule::AtLeast(LEAST_LENGTH)).map(Extent::Height),
+        checks.number("--distance", args.distance.as_ref(), Rule::AtLeast(LEAST_LENGTH)).map(Extent::Distance),
+    ];
+    let interval = checks.number("--interval", args.interval.as_ref(), Rule::Positive);
+    let tolerance = checks.number("--tolerance", Some(&args.tolerance), Rule::AtLeast(LEAST_LENGTH));
+    let reference = checks.number("--reference", args.reference.as_ref(), Rule::Coordinate);
+    let side = args.side.map(|side| match side {
+        SideArg::Left => Side::Left,
+        SideArg::Right => Side::Right,
+        SideArg::Both => Side::Both,
+        SideArg::Inside => Side::Inside,
+        SideArg::Outside => Side::Outside,
+    });
+
+    let outputs = if args.output.is_empty() { vec![default_output(&args.input.input)] } else { args.output.clone() };
+    let mut meshes = Vec::new();
+    for target in targets(&outputs) {
+        let format = checks.format(MeshFormat::of(&target));
+        meshes.extend(format.map(|format| (target, format)));
+    }
+    let lines = targets(&args.lines);
+    for target in &lines {
+        checks.format(ending(target, "line-work file", &["geojson", "json"], "`.geojson` or `.json`"));
+    }
+    let mut reports = Vec::new();
+    for target in targets(&args.report) {
+        let format = checks.format(ReportFormat::of(&target));
+        reports.extend(format.map(|format| (target, format)));
+    }
+    let used = meshes.iter().map(|(t, _)| t).chain(&lines).chain(reports.iter().map(|(t, _)| t)).any(|t| *t == Target::Stdout);
+    if !used && !args.running.quiet {
+        reports.push((Target::Stdout, ReportFormat::Text));
+    }
+
+    let job = slope.zip(tolerance).map(|((slope, sheet), tolerance)| BuildJob {
+        input,
+        wishes: Wishes { slope, sheet, side, extent: extent.into_iter().flatten().next(), interval, tolerance },
+        reference,
+        strict: args.strict,
+        meshes,
+        lines,
+        reports,
+    });
+    checks.finish(job)
+}
+
+/// The job of `slopegen sample`.
+///
+/// # Errors
+/// Everything wrong with the arguments.
+pub(super) fn sample_job(args: &SampleArgs) -> Result<SampleJob, UsageErrors> {
+    let mut checks = Checks::default();
+    let input = checks.input(&args.input);
+    let slope = checks.slopes(&args.slope);
+    let place = match (&args.at, &args.raster) {
+        (Some(path), _) => {
+            let csv_order = checks.order("--at-order", args.at_order.as_ref());
+            if path == Path::new("-") && args.input.input == Path::new("-") {
+                let help = "give a file for one of them";
+                checks.0.push(format!("line and points cannot both come from standard input\n  --> --at -\n   = help: {help}"));
+            }
+            let output = args.output.as_deref().map_or(Target::Stdout, Target::from_arg);
+            checks.format(ending(&output, "file of points", &["csv", "txt", "xyz"], "`.csv`, `.txt` or `.xyz`"));
+            Some((Where::Points { path: path.clone(), options: ReadOptions { format: None, csv_order } }, output))
+        }
+        (None, Some(raster)) => {
+            let output = Target::from_arg(raster);
+            checks.format(ending(&output, "raster", &["asc"], "`.asc`"));
+            let cell = checks.number("--cell", args.cell.as_ref(), Rule::AtLeast(LEAST_LENGTH));
+            let area = args.area.as_ref().map(|text| checks.take(area(text)));
+            match (cell, area) {
+                (Some(cell), None) => Some((Where::Raster(Lattice { cell, area: None }), output)),
+                (Some(cell), Some(Some(area))) => Some((Where::Raster(Lattice { cell, area: Some(area) }), output)),
+                _ => None,
+            }
+        }
+        // The parser asks for one of them.
+        (None, None) => None,
+    };
+    let job = slope.zip(place).map(|((slope, sheet), (at, output))| SampleJob { input, slope, sheet, at, output });
+    checks.finish(job)
+}
+
+/// Number of threads asked for.
+///
+/// # Errors
+/// What is wrong with it.
+pub(super) fn threads(args: &Running) -> Result<Option<usize>, UsageErrors> {
+    let Some(text) = &args.threads else { return Ok(None) };
+    match text.parse::<usize>() {
+        Ok(n) if (1..=MOST_THREADS).contains(&n) => Ok(Some(n)),
+        _ => Err(UsageErrors(vec![format!(
+            "`{text}` is not a number of threads\n  --> --threads {text}\n   = help: give a whole number from 1 to {MOST_THREADS}"
+        )])),
+    }
+}
+
+fn targets(arguments: &[OsString]) -> Vec<Target> {
+    arguments.iter().map(|argument| Target::from_arg(argument)).collect()
+}
+
+/// The input's name with the ending of a mesh, in the working folder.
+fn default_output(input: &Path) -> OsString {
+    let stem = if input == Path::new("-") { None } else { input.file_stem() };
+    let mut name = stem.unwrap_or(OsStr::new("slopegen")).to_owned();
+    name.push(".obj");
+    name
+}
+
+/// Refuses names of files that do not end in one of `known`; streams have any name.
+fn ending(target: &Target, what: &'static str, known: &[&str], phrase: &'static str) -> Result<(), UnknownFormat> {
+    let Target::File(path) = target else { return Ok(()) };
+    let found = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
+    let fits = found.is_some_and(|found| known.contains(&found.as_str()));
+    if fits || target.is_stream() { Ok(()) } else { Err(UnknownFormat { what, path: path.clone(), known: phrase }) }
+}
+
+/// Reads `XMIN,YMIN,XMAX,YMAX`.
+fn area(text: &str) -> Result<Area, String> {
+    let refuse = |what: &str, help: &str| Err(format!("{what}\n  --> --box {text}\n   = help: {help}"));
+    let fields: Vec<&str> = text.split(',').collect();
+    if fields.len() != 4 {
+        return refuse("a box has four numbers", "give `--box XMIN,YMIN,XMAX,YMAX`, decimals behind a point");
+    }
+    let numbers = fields.iter().map(|field| number::read("--box", field, Rule::Coordinate)).collect::<Result<Vec<f64>, _>>()?;
+    let (min, max) = (DVec2::new(numbers[0], numbers[1]), DVec2::new(numbers[2], numbers[3]));
+    if !(min.cmplt(max).all()) {
+        return refuse("the box is empty", "give the south-west corner first: XMIN below XMAX, YMIN below YMAX");
+    }
+    Ok(Area { min, max })
+}

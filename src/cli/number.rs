@@ -1,0 +1,66 @@
+//! Numbers typed in as options.
+
+use crate::validate::INPUT_LIMIT;
+
+/// What a number must be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Rule {
+    /// Any elevation or coordinate.
+    Coordinate,
+    /// A length above zero.
+    Positive,
+    /// A length not less than this.
+    AtLeast(f64),
+}
+
+/// Reads a number for `option`.
+///
+/// # Errors
+/// What is wrong, where, and what mends it, without the leading `error: `.
+pub(super) fn read(option: &str, text: &str, rule: Rule) -> Result<f64, String> {
+    let refuse = |what: String, help: &str| Err(format!("{what}\n  --> {option} {text}\n   = help: {help}"));
+    let Ok(value) = text.trim().parse::<f64>() else {
+        let help = if text.contains(',') { "write the decimals behind a point" } else { "give a number such as 12.5" };
+        return refuse(format!("`{text}` is not a number"), help);
+    };
+    if !value.is_finite() {
+        return refuse(format!("`{text}` is not a finite number"), "give a number such as 12.5");
+    }
+    if value.abs() > INPUT_LIMIT {
+        return refuse(format!("`{text}` is too large"), &format!("give a number up to {INPUT_LIMIT:e}"));
+    }
+    match rule {
+        Rule::Positive if value <= 0.0 => refuse(format!("`{text}` is not above zero"), "give a positive number"),
+        Rule::AtLeast(least) if value < least => refuse(format!("`{text}` is too small"), &format!("give {least} or more")),
+        _ => Ok(value),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers() {
+        assert_eq!(read("--x", " -12.5 ", Rule::Coordinate), Ok(-12.5));
+        assert_eq!(read("--x", "1e-3", Rule::Positive), Ok(0.001));
+        assert_eq!(read("--x", "1e-6", Rule::AtLeast(1e-6)), Ok(1e-6));
+        for (text, rule, what) in [
+            ("twelve", Rule::Coordinate, "is not a number\n  --> --x twelve\n   = help: give a number such as 12.5"),
+            ("", Rule::Coordinate, "is not a number"),
+            ("0,5", Rule::Coordinate, "is not a number\n  --> --x 0,5\n   = help: write the decimals behind a point"),
+            ("nan", Rule::Coordinate, "is not a finite number"),
+            ("inf", Rule::Positive, "is not a finite number"),
+            ("1e999", Rule::Positive, "is not a finite number"),
+            ("1e10", Rule::Coordinate, "is too large"),
+            ("-1e10", Rule::Coordinate, "is too large"),
+            ("0", Rule::Positive, "is not above zero"),
+            ("-0", Rule::Positive, "is not above zero"),
+            ("-1", Rule::Positive, "is not above zero"),
+            ("1e-7", Rule::AtLeast(1e-6), "is too small\n  --> --x 1e-7\n   = help: give 0.000001 or more"),
+        ] {
+            let error = read("--x", text, rule).unwrap_err();
+            assert!(error.starts_with(&format!("`{text}` {what}")), "{error}");
+        }
+    }
+}

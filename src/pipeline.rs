@@ -1,0 +1,47 @@
+//! The one place that knows the order: read → check → design → surface → certificate → write. A job says what is wanted; all
+//! that can be refused without the input has been refused before ([`crate::cli`] does it for the command line).
+
+pub mod build;
+pub mod design;
+pub mod error;
+mod figures;
+pub mod sample;
+mod watch;
+
+pub use build::{BuildJob, Built, build};
+pub use design::{DesignError, MOST_LEVELS, Wishes};
+pub use error::{BuriedError, Error};
+pub use sample::{Area, Lattice, MOST_NODES, SampleJob, Sampled, Where, lattice, sample};
+pub use watch::{Observer, WRITING};
+
+use crate::model::{Line, Slope};
+use crate::read::{self, ReadOptions, Source};
+use crate::validate;
+use std::path::PathBuf;
+
+/// The file the line comes from.
+#[derive(Clone, Debug)]
+pub struct LineInput {
+    /// Its path; `-` is standard input.
+    pub path: PathBuf,
+    /// What is known about its format.
+    pub options: ReadOptions,
+    /// Make rings of lines that do not end where they begin.
+    pub closed: bool,
+}
+
+/// Reads and checks a line; what is worth knowing goes to `observer`.
+fn read_line(input: &LineInput, observer: &watch::Stopwatch<'_>) -> Result<(Line, Source), Error> {
+    observer.stage_of(watch::READING);
+    let raw = read::read_line(&input.path, &input.options)?;
+    raw.notes.iter().for_each(|note| observer.note(note));
+    observer.stage_of(watch::CHECKING);
+    let checked = validate::check(&raw, &validate::Options { closed: input.closed })?;
+    checked.notes.iter().for_each(|note| observer.note(note));
+    Ok((checked.line, raw.source))
+}
+
+/// Refuses segments as steep as the slope.
+fn check_steepness(line: &Line, source: &Source, slope: Slope) -> Result<(), Error> {
+    Ok(validate::check_steepness(line, &source.label, slope)?)
+}

@@ -1,0 +1,75 @@
+//! Why a job was not done.
+
+use super::DesignError;
+use crate::model::{Defects, Slope};
+use crate::read::ReadError;
+use crate::report::BuriedStretch;
+use crate::surface::SurfaceError;
+use crate::write::WriteError;
+use std::fmt;
+
+/// Why a job was not done. `Display` gives the whole message with places and cures, without the leading `error: `.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// An input could not be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The line is not one a surface can be built on.
+    #[error(transparent)]
+    Invalid(#[from] Defects),
+    /// The line and what is wanted do not go together.
+    #[error(transparent)]
+    Design(#[from] DesignError),
+    /// The engine refused.
+    #[error("{}", placed(.label, .cause))]
+    Surface {
+        /// The input.
+        label: String,
+        /// Why.
+        cause: SurfaceError,
+    },
+    /// Stretches of the line are buried, and that was not to be.
+    #[error(transparent)]
+    Buried(#[from] BuriedError),
+    /// An output could not be opened or written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}
+
+/// The engine's message with the input, which it does not know, below its first line.
+fn placed(label: &str, cause: &SurfaceError) -> String {
+    let message = cause.to_string();
+    match message.split_once('\n') {
+        Some((what, rest)) => format!("{what}\n  --> {label}\n{rest}"),
+        None => format!("{message}\n  --> {label}"),
+    }
+}
+
+/// All buried stretches of a line that was to have none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BuriedError {
+    /// The input.
+    pub label: String,
+    /// The stretches; at least one.
+    pub stretches: Vec<BuriedStretch>,
+}
+
+impl fmt::Display for BuriedError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (noun, verb) = if self.stretches.len() == 1 { ("a stretch", "lies") } else { ("stretches", "lie") };
+        write!(f, "{noun} of the line {verb} buried under the slope of another part")?;
+        for s in &self.stretches {
+            write!(f, "\n  --> {}, `{}`, stations {:.3} to {:.3}", self.label, s.chain, s.from, s.to)?;
+            write!(f, "\n   = up to {:.3} deep, under `{}` at station {:.3}; ", s.depth, s.by_chain, s.by_station)?;
+            match s.free_slope.and_then(Slope::from_ratio) {
+                Some(slope) => write!(f, "free from {}", slope.not_flatter())?,
+                None => f.write_str("no slope sets it free")?,
+            }
+        }
+        f.write_str(
+            "\n   = help: move the line, ask for a steeper slope, or leave out `--strict`: the rest of the surface is right",
+        )
+    }
+}
+
+impl std::error::Error for BuriedError {}

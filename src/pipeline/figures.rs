@@ -1,0 +1,146 @@
+//! The engine's figures in the words of the report.
+
+use crate::model::{Design, Line, Note, Sheet};
+use crate::read::Source;
+use crate::report::{
+    Balance, BuriedStretch, Certificate, Depths, Detail, Input, LineFigures, Reference, Report, SCHEMA, Slopes, SurfaceFigures,
+    Timing, Tool, Units, Volumes, Warning,
+};
+use crate::surface::Surface;
+use std::collections::BTreeMap;
+
+/// The report of a run; its times are still to be filled in.
+pub(super) fn report(line: &Line, source: &Source, design: &Design, surface: &Surface, notes: &[Note]) -> Report {
+    let slope = Some(design.slope.into());
+    let slopes = match design.sheet {
+        Sheet::Falling => Slopes { fill: slope, cut: None },
+        Sheet::Rising => Slopes { cut: slope, fill: None },
+    };
+    let mut levels = surface.levels.clone();
+    levels.sort_by(f64::total_cmp);
+    let v = &surface.volumes;
+    let areas = &surface.areas;
+    let buried = buried(line, surface);
+    let mut warnings: Vec<Warning> = notes
+        .iter()
+        .map(|note| Warning { code: note.code.to_owned(), message: note.message.clone(), details: BTreeMap::new() })
+        .collect();
+    if let Some(warning) = warnings.iter_mut().find(|warning| warning.code == BURIED) {
+        warning.details = buried_details(&buried);
+    }
+    Report {
+        schema: SCHEMA,
+        tool: Tool::default(),
+        inputs: vec![input(source)],
+        units: Units::default(),
+        slopes,
+        line: line_figures(line, surface, buried),
+        extent: design.extent.into(),
+        levels,
+        surface: SurfaceFigures {
+            vertices: surface.tin.vertices.len(),
+            triangles: surface.tin.triangles.len(),
+            plan_area: areas.plan,
+            slope_area: areas.fill_slope + areas.cut_slope,
+            fill_slope_area: areas.fill_slope,
+            cut_slope_area: areas.cut_slope,
+            platform_area: areas.platform,
+        },
+        certificate: certificate(surface),
+        volumes: Some(Volumes {
+            method: "prisms".to_owned(),
+            cut: v.cut,
+            fill: v.fill,
+            net: v.cut - v.fill,
+            balance: Balance::of(v.cut, v.fill),
+            error_bound: v.error_bound,
+            complete: true,
+            reference: Reference { kind: "plane".to_owned(), elevation: Some(v.reference) },
+        }),
+        depths: Some(Depths { cut_max: v.cut_max, fill_max: v.fill_max }),
+        warnings,
+        timing: Timing::default(),
+    }
+}
+
+/// Code of the note about buried stretches.
+pub(super) const BURIED: &str = "buried";
+
+/// The note about buried stretches, if there are any.
+pub(super) fn buried_note(stretches: &[BuriedStretch]) -> Option<Note> {
+    let depth = stretches.iter().map(|stretch| stretch.depth).fold(0.0, f64::max);
+    let text = match stretches.len() {
+        0 => return None,
+        1 => "a stretch of the line lies".to_owned(),
+        n => format!("{n} stretches of the line lie"),
+    };
+    Some(Note::new(BURIED, format!("{text} under the slope of another part, up to {depth:.3} deep: the report names the places")))
+}
+
+fn buried_details(stretches: &[BuriedStretch]) -> BTreeMap<&'static str, Detail> {
+    let deepest = stretches.iter().max_by(|a, b| a.depth.total_cmp(&b.depth));
+    let mut details = BTreeMap::from([("count", Detail::Count(stretches.len() as u64))]);
+    if let Some(deepest) = deepest {
+        details.insert("chain", Detail::Text(deepest.chain.clone()));
+        details.insert("depth", Detail::Number(deepest.depth));
+    }
+    details
+}
+
+fn input(source: &Source) -> Input {
+    Input {
+        role: "line".to_owned(),
+        path: if source.label == "<stdin>" { "-".to_owned() } else { source.label.clone() },
+        sha256: source.sha256.clone(),
+        format: source.format.name().to_owned(),
+        crs: source.crs.clone(),
+    }
+}
+
+/// Buried stretches with the names of their chains.
+pub(super) fn buried(line: &Line, surface: &Surface) -> Vec<BuriedStretch> {
+    let name = |chain: usize| line.chains.get(chain).map(|chain| chain.name.clone()).unwrap_or_default();
+    let stretch = |b: &crate::surface::Buried| BuriedStretch {
+        chain: name(b.chain),
+        from: b.from,
+        to: b.to,
+        depth: b.depth,
+        by_chain: name(b.by_chain),
+        by_station: b.by_station,
+        free_slope: b.free_slope,
+    };
+    surface.buried.iter().map(stretch).collect()
+}
+
+fn line_figures(line: &Line, surface: &Surface, buried: Vec<BuriedStretch>) -> LineFigures {
+    let (z_min, z_max) = line.elevation_range();
+    let segments = line.chains.iter().flat_map(|chain| (0..chain.segment_count()).map(|i| chain.segment(i)));
+    let gradients = segments.map(|(a, b)| (b.z - a.z).abs() / a.truncate().distance(b.truncate()));
+    LineFigures {
+        chains: line.chains.len(),
+        vertices: line.vertex_count(),
+        simplified: surface.simplified,
+        simplified_max: surface.simplified_max,
+        length: line.chains.iter().filter_map(|chain| chain.stations().last().copied()).sum(),
+        z_min,
+        z_max,
+        gradient_max: gradients.fold(0.0, f64::max),
+        buried,
+    }
+}
+
+/// The engine's certificate as reported.
+fn certificate(surface: &Surface) -> Certificate {
+    let c = &surface.certificate;
+    Certificate {
+        paired: c.paired,
+        slope_max_deviation_deg: c.strip_max_deviation_deg.max(c.sector_max_deviation_deg),
+        strip_max_deviation_deg: c.strip_max_deviation_deg,
+        sector_max_deviation_deg: c.sector_max_deviation_deg,
+        triangles_beyond_0_1deg: c.triangles_beyond_0_1deg,
+        height_max_deviation: c.height_max_deviation,
+        manifold: c.manifold,
+        overlaps: c.overlaps,
+        input_edges_kept: c.input_edges_kept,
+    }
+}

@@ -1,0 +1,107 @@
+//! The command line from outside: the program is run as people run it.
+
+mod build;
+mod help;
+mod messages;
+mod sample;
+mod streams;
+#[cfg(unix)]
+mod unix;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use tempfile::TempDir;
+
+/// Longer than any job here takes on a slow machine; a hang fails the test instead of holding it up.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// A working folder with the shipped examples in it.
+struct Site {
+    folder: TempDir,
+}
+
+/// How a run ended.
+#[derive(Debug)]
+struct Run {
+    code: i32,
+    stdout: String,
+    stderr: String,
+}
+
+impl Site {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["road.geojson", "pad.geojson", "pit.csv"] {
+            fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(name), folder.path().join(name)).unwrap();
+        }
+        Self { folder }
+    }
+
+    /// A site with one more file.
+    fn with(name: &str, content: impl AsRef<[u8]>) -> Self {
+        let site = Self::new();
+        fs::write(site.path(name), content).unwrap();
+        site
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+    }
+
+    /// Names of the files that have appeared.
+    fn new_files(&self) -> Vec<String> {
+        let mut names: Vec<String> =
+            fs::read_dir(self.folder.path()).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.retain(|name| !["road.geojson", "pad.geojson", "pit.csv"].contains(&name.as_str()));
+        names.sort();
+        names
+    }
+
+    fn run_with(&self, arguments: &str, stdin: impl Into<Vec<u8>>) -> Run {
+        self.run_args(&arguments.split_whitespace().collect::<Vec<_>>(), stdin)
+    }
+
+    fn run(&self, arguments: &str) -> Run {
+        self.run_with(arguments, "")
+    }
+
+    fn run_args(&self, arguments: &[&str], stdin: impl Into<Vec<u8>>) -> Run {
+        let output = assert_cmd::Command::new(env!("CARGO_BIN_EXE_slopegen"))
+            .args(arguments)
+            .current_dir(self.folder.path())
+            .env("NO_COLOR", "1")
+            .write_stdin(stdin)
+            .timeout(PATIENCE)
+            .output()
+            .unwrap();
+        Run {
+            code: output.status.code().unwrap_or(-1),
+            stdout: String::from_utf8_lossy(&output.stdout).into_owned(),
+            stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
+        }
+    }
+}
+
+impl Run {
+    /// The run has ended well; gives standard output.
+    #[track_caller]
+    fn done(&self) -> &str {
+        assert_eq!(self.code, 0, "{}", self.stderr);
+        assert!(!self.stderr.contains("error"), "{}", self.stderr);
+        &self.stdout
+    }
+
+    /// The run has ended with this code and, but for notes, this on standard error, and nothing on standard output.
+    #[track_caller]
+    fn refused(&self, code: i32, message: &str) {
+        let errors: Vec<&str> = self.stderr.lines().filter(|l| !l.starts_with("note[") && !l.starts_with("warning[")).collect();
+        assert_eq!(errors.join("\n"), message.trim_end());
+        assert_eq!(self.code, code, "{}", self.stderr);
+        assert_eq!(self.stdout, "");
+    }
+}

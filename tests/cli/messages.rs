@@ -1,0 +1,235 @@
+//! What is said, and with which code, when something is wrong. The texts are pinned: they are read by people in a hurry.
+
+use super::Site;
+
+#[track_caller]
+fn refused(arguments: &str, code: i32, message: &str) {
+    let site = Site::new();
+    site.run(arguments).refused(code, message);
+    assert!(site.new_files().is_empty(), "{:?}", site.new_files());
+}
+
+#[test]
+fn slopes() {
+    refused(
+        "build road.geojson --slope 1:0.5",
+        2,
+        "error: `1:0.5` is ambiguous\n  --> --slope 1:0.5\n   = it may mean 63.43° or 26.57°\n   \
+         = help: write `1V:0.5H` or `1H:0.5V`",
+    );
+    refused(
+        "build road.geojson --slope 0",
+        2,
+        "error: `0` is not a positive slope\n  --> --slope 0\n   \
+         = help: give the steepness; `--direction` says whether it falls or rises",
+    );
+    refused(
+        "build road.geojson --slope -1:2",
+        2,
+        "error: `-1:2` is not a positive slope\n  --> --slope -1:2\n   \
+         = help: give the steepness; `--direction` says whether it falls or rises",
+    );
+    refused(
+        "build road.geojson --slope 90deg",
+        2,
+        "error: `90deg` is not less than a right angle\n  --> --slope 90deg\n   \
+         = help: give an angle against the horizontal between 0.006° and 89.994°",
+    );
+    refused(
+        "build road.geojson",
+        2,
+        "error: no slope was given for a surface that falls\n  --> --slope\n   \
+         = help: give `--slope` or `--fill-slope`, such as 1:1.5, 2H:1V, 1in2, 50% or 26.57deg",
+    );
+    refused(
+        "sample road.geojson --direction up --fill-slope 1:2 --at -",
+        2,
+        "error: no slope was given for a surface that rises\n  --> --slope\n   \
+         = help: give `--slope` or `--cut-slope`, such as 1:1.5, 2H:1V, 1in2, 50% or 26.57deg",
+    );
+}
+
+#[test]
+fn everything_wrong_with_the_arguments_is_told_at_once() {
+    refused(
+        "build road.geojson --slope steep --interval 0 --tolerance -1 --to-elevation nan --csv-order xq -o a.stl --lines b",
+        2,
+        "error: `q` is no column\n  --> --csv-order xq\n   = help: letters: x or e easting, y or n northing, z elevation, l line \
+         id, p point number, d description, _ skip; e.g. xyz, enz, pnezd\n\
+         error: `steep` is not a slope\n  --> --slope steep\n   = help: write `1:1.5`, `2H:1V`, `1in2`, `50%` or `26.57deg`\n\
+         error: `nan` is not a finite number\n  --> --to-elevation nan\n   = help: give a number such as 12.5\n\
+         error: `0` is not above zero\n  --> --interval 0\n   = help: give a positive number\n\
+         error: `-1` is too small\n  --> --tolerance -1\n   = help: give 0.000001 or more\n\
+         error: no format is known for the ending `.stl`\n  --> a.stl\n   = help: end the name of a mesh in `.obj` or `.ply`\n\
+         error: the name has no ending that tells the format\n  --> b\n   \
+         = help: end the name of a line-work file in `.geojson` or `.json`",
+    );
+}
+
+#[test]
+fn what_the_line_forbids() {
+    refused(
+        "build road.geojson --slope 1:1.5 --interval 1e-9",
+        1,
+        "error: the interval 0.000000001 is too small\n  --> road.geojson\n   = 23.3 from the highest to the lowest; at most \
+         10000 level curves, at least 0.00001 apart\n   = help: give `--interval 0.0024` or more",
+    );
+    refused(
+        "build road.geojson --slope 1:1.5 --to-elevation 500",
+        1,
+        "error: the slope would end before it begins\n  --> road.geojson\n   \
+         = highest vertex at 425.7; `--to-elevation` 500\n   \
+         = help: a falling slope ends below 425.7; for one that rises give `--direction up`",
+    );
+    refused(
+        "build road.geojson --slope 1:1.5 --direction up --to-elevation 400",
+        1,
+        "error: the slope would end before it begins\n  --> road.geojson\n   \
+         = lowest vertex at 412.4; `--to-elevation` 400\n   \
+         = help: a rising slope ends above 412.4; for one that falls give `--direction down`",
+    );
+    refused(
+        "build road.geojson --slope 1:1.5 --side inside",
+        1,
+        "error: `--side inside` needs rings, and `access road` is open\n  --> road.geojson, feature 1\n   \
+         = help: ask for `left`, `right` or `both`, or close the line with `--closed`",
+    );
+    refused(
+        "build road.geojson --slope 1:10000 --height 2000",
+        1,
+        "error: the slope would reach too far\n  --> road.geojson\n   = 20000000 in plan and 2000 in height, against a limit of \
+         10000000\n   = help: end it sooner",
+    );
+}
+
+#[test]
+fn a_line_as_steep_as_the_slope() {
+    let site = Site::with("ramp.csv", "x,y,z\n0,0,10\n10,0,10\n20,0,16\n30,0,16\n");
+    // 6 up on 10 is 60 %; 1/0.6 = 1.667, so 1:1.66 is the flattest in three digits that is steeper.
+    let message = "error: segment 2 of `line 1` is as steep as the slope asked for, or steeper\n  --> ramp.csv, rows 3 to 4\n   \
+                   = stations 10.000 to 20.000: gradient 0.6 (60.0 %, 30.96°); slope asked for 1V:2H (50.0 %, 26.57°)\n   \
+                   = help: flatten the line there, or ask for 1:1.66 or steeper";
+    site.run("build ramp.csv --slope 1:2").refused(1, message);
+    site.run("sample ramp.csv --slope 1:2 --raster a.asc --cell 1").refused(1, message);
+    site.run("build ramp.csv --slope 1:1.66 --height 1").done();
+}
+
+#[test]
+fn defects_of_the_line() {
+    let site = Site::with("b.csv", "x,y,z\n0,0,1\n0,0,1\n");
+    let run = site.run("build b.csv --slope 1:2");
+    assert_eq!(run.code, 1, "{run:?}");
+    assert!(run.stderr.contains("error: a line needs at least 2 distinct vertices\n  --> b.csv"), "{}", run.stderr);
+    let site = Site::with("lonlat.csv", "lon,lat,z\n9.1,48.7,400\n9.2,48.7,400\n");
+    let run = site.run("build lonlat.csv --slope 1:2");
+    assert_eq!(run.code, 1, "{run:?}");
+    assert!(run.stderr.contains("ogr2ogr"), "{}", run.stderr);
+}
+
+#[test]
+fn inputs_that_cannot_be_read() {
+    refused(
+        "build missing.geojson --slope 1:2",
+        3,
+        "error: the input cannot be read\n  --> missing.geojson\n   = No such file or directory (os error 2)",
+    );
+    for (name, content) in [
+        ("empty.csv", &b""[..]),
+        ("empty.geojson", b""),
+        ("cut.geojson", b"{\"type\":\"LineString\",\"coordinates\":[[1,2,3],[4,5"),
+        ("one.geojson", b"{\"type\":\"LineString\",\"coordinates\":[[1],[2]]}"),
+        ("bytes.csv", b"\x00\x01\x02\xff\xfe"),
+        ("huge.geojson", b"{\"type\":\"LineString\",\"coordinates\":[[1,2,3],[1e999,5,6]]}"),
+        ("no_header.csv", b"1,2,3\n4,5,6\n"),
+    ] {
+        let site = Site::with(name, content);
+        let run = site.run(&format!("build {name} --slope 1:2"));
+        assert_eq!(run.code, 3, "{name}: {}", run.stderr);
+        assert!(run.stderr.starts_with("error: ") && run.stderr.contains(&format!("\n  --> {name}")), "{name}: {}", run.stderr);
+        assert_eq!(site.new_files(), [name]);
+    }
+}
+
+#[test]
+fn large_coordinates_are_refused() {
+    let site = Site::with("far.geojson", "{\"type\":\"LineString\",\"coordinates\":[[1,2,3],[1e308,5,6]]}");
+    let run = site.run("build far.geojson --slope 1:2");
+    assert_eq!(run.code, 1, "{run:?}");
+}
+
+#[test]
+fn usage() {
+    for arguments in [
+        "build",
+        "build road.geojson --slope 1:2 --heigth 3",
+        "build road.geojson --slope 1:2 --height 3 --distance 4",
+        "build road.geojson --slope 1:2 --side up",
+        "build road.geojson --slope 1:2 --quiet --verbose",
+        "build road.geojson --slope 1:2 --threads 0",
+        "build road.geojson --slope 1:2 --threads 1000000",
+        "build road.geojson --slope 1:2 --threads -1",
+        "build road.geojson --slope 1:2 --height -3",
+        "build road.geojson --slope 1:2 --height 1e400",
+        "build road.geojson --slope 1:2 --distance 0",
+        "build road.geojson --slope 1:2 --reference inf",
+        "build road.geojson --slope 1:2 -o a.obj -o ./a.obj",
+        "build road.geojson --slope 1:2 -o - --report -",
+        "build road.geojson --slope 1:2 --lines road.geojson",
+        "build road.geojson --slope 1:2 -o .",
+        "build road.geojson --slope 1:2 --report r.pdf",
+        "build - --slope 1:2",
+        "build road.dxf --slope 1:2",
+        "sample road.geojson --slope 1:2",
+        "sample road.geojson --slope 1:2 --raster a.asc",
+        "sample road.geojson --slope 1:2 --raster a.tif --cell 1",
+        "sample road.geojson --slope 1:2 --raster a.asc --cell 0",
+        "sample road.geojson --slope 1:2 --raster a.asc --cell 1 --box 0,0,1",
+        "sample road.geojson --slope 1:2 --raster a.asc --cell 1 --box 1,0,0,1",
+        "sample road.geojson --slope 1:2 --raster a.asc --cell 1 --box 0,0,nan,1",
+        "sample road.geojson --slope 1:2 --raster a.asc --cell 1 --at pit.csv",
+        "sample road.geojson --slope 1:2 --at pit.csv --cell 2",
+        "sample road.geojson --slope 1:2 --at pit.csv -o heights.obj",
+        "sample - --input-format csv --slope 1:2 --at -",
+        "volume a b",
+    ] {
+        let site = Site::new();
+        let run = site.run(arguments);
+        assert_eq!(run.code, 2, "{arguments}: {}", run.stderr);
+        assert!(!run.stderr.is_empty() && run.stdout.is_empty(), "{arguments}");
+        assert!(site.new_files().is_empty(), "{arguments}: {:?}", site.new_files());
+    }
+}
+
+#[test]
+fn outputs_that_clash() {
+    refused(
+        "build road.geojson --slope 1:2 -o a.obj --lines b.geojson -o ./a.obj",
+        2,
+        "error: two outputs go to the same place\n  --> a.obj\n  --> ./a.obj\n   = help: give each output a name of its own",
+    );
+    refused(
+        "build road.geojson --slope 1:2 --lines ./road.geojson",
+        2,
+        "error: the output would overwrite an input\n  --> ./road.geojson\n   = help: give the output another name",
+    );
+}
+
+#[test]
+fn outputs_that_cannot_be_written() {
+    refused(
+        "build road.geojson --slope 1:2 -o a.obj -o missing/a.obj",
+        4,
+        "error: the output cannot be created\n  --> missing/a.obj\n   = No such file or directory (os error 2)\n   \
+         = help: make sure that the folder `missing` exists",
+    );
+}
+
+#[test]
+fn names_from_files_cannot_drive_the_terminal() {
+    let line = r#"{"type":"Feature","properties":{"name":"a\u001b[2Jb"},"geometry":{"type":"LineString",
+        "coordinates":[[0,0,10],[10,0,30]]}}"#;
+    let site = Site::with("evil.geojson", line);
+    let run = site.run("build evil.geojson --slope 1:2");
+    assert_eq!(run.code, 1, "{run:?}");
+    assert!(!run.stderr.contains('\u{1b}'), "{:?}", run.stderr);
+}
