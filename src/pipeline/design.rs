@@ -4,7 +4,8 @@ mod error;
 
 pub use error::DesignError;
 
-use crate::model::{Design, Extent, Line, Note, Role, Sheet, Side, Slope};
+use crate::model::{Chain, Design, Extent, Line, Note, Role, Sheet, Side, Slope};
+use crate::validate::MERGE_DISTANCE;
 
 /// How far beyond the lowest (highest) vertex a slope goes for which no end was given, in the length unit.
 pub const DEFAULT_REACH: f64 = 10.0;
@@ -25,6 +26,9 @@ pub const FURTHEST_REACH: f64 = 1e7;
 
 /// Most points that the arcs of level curves round a single corner or end may come to, all of them together.
 pub const MOST_ARC_POINTS: f64 = 2e7;
+
+/// Tolerances above this share of the width of a ring are lowered to it: a coarser mesh would lose the ring.
+pub const COARSEST: f64 = 0.05;
 
 /// Level curves to reckon with where no interval is given: the most that the engine chooses.
 const CHOSEN_LEVELS: f64 = 25.0;
@@ -98,9 +102,10 @@ impl Wishes {
             });
         }
         let levels = self.interval.map_or(CHOSEN_LEVELS, |interval| height / interval);
-        let points = levels * arc_points(deepest, self.tolerance);
+        let tolerance = self.tolerance(line, notes);
+        let points = levels * arc_points(deepest, tolerance);
         if points > MOST_ARC_POINTS {
-            return Err(DesignError::TooFine { label: label.to_owned(), points, tolerance: self.tolerance });
+            return Err(DesignError::TooFine { label: label.to_owned(), points, tolerance });
         }
         Ok(Design {
             slope: self.slope,
@@ -109,8 +114,27 @@ impl Wishes {
             side_of_rings,
             extent,
             interval: self.interval,
-            tolerance: self.tolerance,
+            tolerance,
         })
+    }
+
+    /// The tolerance, lowered where a ring is too narrow for it.
+    fn tolerance(&self, line: &Line, notes: &mut Vec<Note>) -> f64 {
+        let rings = line.chains.iter().filter(|chain| chain.closed());
+        let coarsest = COARSEST * rings.map(width).fold(f64::INFINITY, f64::min);
+        if self.tolerance <= coarsest {
+            return self.tolerance;
+        }
+        let lowered = two_digits(coarsest.max(MERGE_DISTANCE));
+        let asked = self.tolerance;
+        notes.push(Note::new(
+            "tolerance-lowered",
+            format!(
+                "the tolerance is {lowered:.2e} instead of {asked}: the narrowest ring is only {:.2e} wide",
+                coarsest / COARSEST
+            ),
+        ));
+        lowered
     }
 
     /// Sides for open lines and for rings.
@@ -145,10 +169,27 @@ impl Wishes {
     }
 }
 
+/// Mean width of a ring: twice its area over its length, which is the width of a long rectangle.
+fn width(ring: &Chain) -> f64 {
+    let origin = ring.vertices[0].truncate();
+    let (mut twice_area, mut length) = (0.0, 0.0);
+    for (a, b) in (0..ring.segment_count()).map(|i| ring.segment(i)) {
+        let (a, b) = (a.truncate() - origin, b.truncate() - origin);
+        twice_area += a.perp_dot(b);
+        length += a.distance(b);
+    }
+    twice_area.abs() / length
+}
+
 /// Points of the outermost level curve round an open end, half a turn. A chord over the angle `w` of a cone lies `h w²/8` off it in
 /// height, `h` below its top; a third of the tolerance is spent on that.
 fn arc_points(deepest: f64, tolerance: f64) -> f64 {
     std::f64::consts::PI / (8.0 * tolerance / (3.0 * deepest)).sqrt()
+}
+
+/// A number rounded to two digits.
+fn two_digits(value: f64) -> f64 {
+    format!("{value:.1e}").parse().unwrap_or(value)
 }
 
 /// A length without the digits that subtraction leaves behind.
@@ -179,7 +220,7 @@ fn smallest_interval(height: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Chain, Place};
+    use crate::model::Place;
     use glam::DVec3;
 
     fn line(role: Role) -> Line {
@@ -282,6 +323,21 @@ mod tests {
         // Steep: near in plan, but deep.
         let steep = Wishes { slope: Slope::from_ratio(1e4).unwrap(), extent: Some(Extent::Distance(1e4)), ..wishes() };
         assert!(matches!(steep.settle(&line(OPEN), "a", &mut Vec::new()), Err(DesignError::TooFar { .. })));
+    }
+
+    #[test]
+    fn coarse_tolerances_are_lowered_for_rings() {
+        let with = |tolerance, role| {
+            let mut notes = Vec::new();
+            let design = Wishes { tolerance, ..wishes() }.settle(&line(role), "a", &mut notes).unwrap();
+            (design.tolerance, notes.iter().any(|note| note.code == "tolerance-lowered"))
+        };
+        // A right triangle with legs of 50: area 1250, length 50 (2 + √2).
+        let coarsest = COARSEST * 2500.0 / (50.0 * (2.0 + 2.0_f64.sqrt()));
+        let (lowered, noted) = with(1000.0, RING);
+        assert!((lowered / coarsest - 1.0).abs() <= 0.05 && noted, "{lowered}");
+        assert_eq!(with(0.5, RING), (0.5, false));
+        assert_eq!(with(1000.0, OPEN), (1000.0, false));
     }
 
     #[test]

@@ -73,3 +73,19 @@ impl fmt::Display for BuriedError {
 }
 
 impl std::error::Error for BuriedError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_engine_learns_the_place() {
+        let of = |cause| Error::Surface { label: "a.csv".into(), cause }.to_string();
+        assert_eq!(
+            of(SurfaceError::NoSide),
+            "there is no side to build on\n  --> a.csv\n   = `inside` and `outside` need a ring\n   \
+             = help: close the line (`--closed`), or choose `--side left`, `right` or `both`"
+        );
+        assert_eq!(of(SurfaceError::Cancelled), "interrupted\n  --> a.csv");
+    }
+}

@@ -16,11 +16,14 @@ use rustc_hash::FxHashMap;
 /// Vertices of one facet closer than this (length units) are one.
 pub const SNAP: f64 = 1e-8;
 
+/// Knots closer than this (relative, in `τ`) lie on one ruling.
+const TIE_WIDTH: f64 = 1e-15;
+
 /// Rounds of exchange before giving up; sound input needs fewer than ten.
 const MAX_ROUNDS: usize = 60;
 
 /// Steps one facet may take in a round, and per knot it starts with, before it is given up.
-const MAX_STEPS: [usize; 2] = [100, 4];
+const MAX_STEPS: [usize; 2] = [1000, 4];
 
 /// Sectors are looked at from rulings at most this far apart (radians) before closure starts.
 const SECTOR_STEP: f64 = 0.5;
@@ -435,21 +438,21 @@ impl<'a> State<'a> {
                 };
             }
         }
-        if width <= SNAP {
-            // The knots tie: everything between them happens in one place.
-            let facet = self.sheet.facet(f);
-            let tip = self.sheet.trim_facet(f, tau);
-            let point = facet.point(tau, tip.r);
-            return Between::Junction { tau, left: ka, right: kb, point };
-        }
         self.hint_by_looking(f, a, b, tau)
+    }
+
+    /// The knots lie on one ruling: everything between them happens in one place.
+    fn tie(&self, f: FacetId, a: &Knot, b: &Knot) -> Between {
+        let tau = 0.5 * (a.tau + b.tau);
+        let point = self.sheet.facet(f).point(tau, self.sheet.trim_facet(f, tau).r);
+        Between::Junction { tau, left: a.right, right: b.left, point }
     }
 
     /// Looks along a ruling between two knots where the algebra gave no answer.
     fn hint_by_looking(&self, f: FacetId, a: &Knot, b: &Knot, tau: f64) -> Between {
         let width = b.tau - a.tau;
-        if width <= f64::EPSILON * 4.0 * (a.tau.abs() + b.tau.abs()) {
-            return Between::Stuck;
+        if width <= TIE_WIDTH * (1.0 + a.tau.abs() + b.tau.abs()) {
+            return self.tie(f, a, b);
         }
         let inside = tau > a.tau + 0.01 * width && tau < b.tau - 0.01 * width;
         let tau = if inside { tau } else { 0.5 * (a.tau + b.tau) };

@@ -267,25 +267,26 @@ impl<'a> Shared<'a> {
                 }
             }
         }
-        if facet.is_strip() {
-            return out;
-        }
-        let mut round: Vec<Far> = Vec::with_capacity(out.len());
+        let mut whole: Vec<Far> = Vec::with_capacity(out.len());
         for (i, p) in out.iter().enumerate() {
-            round.push(*p);
+            whole.push(*p);
             // Stretches along the distance, not those towards a facet that is not wanted.
             let at_reach = |p: &Far| (p.r - reach).abs() <= REACH_SNAP;
-            if let Some(q) = out.get(i + 1).filter(|q| !p.shared && at_reach(p) && at_reach(q)) {
-                let taus = [p.tau, q.tau];
-                for point in self.cut.circle(facet, taus[0], taus[1], reach, facet.z0 - facet.drop * reach) {
-                    let id = base + cell.points.len() as PointId;
-                    cell.points.push(point);
-                    let (tau, _) = facet.parameters(point.truncate());
-                    round.push(Far { tau, r: reach, id, shared: false });
-                }
+            let Some(q) = out.get(i + 1).filter(|q| !p.shared && at_reach(p) && at_reach(q)) else { continue };
+            let ends = [p.id, q.id].map(|id| self.point(id, base, cell));
+            let points = if facet.is_strip() {
+                self.cut.level_points_of_segment(ends)
+            } else {
+                self.cut.circle(facet, p.tau, q.tau, reach, facet.z0 - facet.drop * reach)
+            };
+            for point in points {
+                let id = base + cell.points.len() as PointId;
+                cell.points.push(point);
+                let tau = facet.parameters(point.truncate()).0.clamp(p.tau, q.tau);
+                whole.push(Far { tau, r: reach, id, shared: false });
             }
         }
-        round
+        whole
     }
 
     /// Level points of a joint from its node outwards, each with its code, and the end.

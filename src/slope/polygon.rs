@@ -143,40 +143,42 @@ fn band_of(a: &Corner, b: &Corner) -> Code {
     }
 }
 
-/// Whether three corners turn left. Corners on the edge of the network are on one straight line, whatever rounding says.
-fn left_turn(a: &Corner, b: &Corner, c: &Corner) -> bool {
-    !(a.near && b.near && c.near) && turn(a.plan, b.plan, c.plan) == Turn::Left
+/// Triangles thinner than this (length units) are taken as straight, unless there is no other way: points on one straight
+/// line in space are straight only up to rounding in the mesh.
+const STRAIGHT: f64 = 1e-9;
+
+/// Whether three corners turn left, to a triangle thicker than `least`. Corners on the edge of the network are on one straight
+/// line, whatever rounding says.
+fn left_turn(a: &Corner, b: &Corner, c: &Corner, least: f64) -> bool {
+    if (a.near && b.near && c.near) || turn(a.plan, b.plan, c.plan) != Turn::Left {
+        return false;
+    }
+    let longest = (b.plan - a.plan).length_squared().max((c.plan - b.plan).length_squared()).max((a.plan - c.plan).length_squared());
+    let area = (b.plan - a.plan).perp_dot(c.plan - a.plan);
+    area * area > least * least * longest
 }
 
 /// Triangulates a polygon that is monotone in `(τ, r)`; falls back to clipping ears.
 fn triangulate(ring: &[Corner], out: &mut Vec<[PointId; 3]>) -> bool {
-    let positive = left_turn;
+    let positive = |a: &Corner, b: &Corner, c: &Corner| left_turn(a, b, c, 0.0);
     match ring {
         [] | [_] | [_, _] => true,
         [a, b, c] => {
             out.push([a.id, b.id, c.id]);
             positive(a, b, c)
         }
-        [a, b, c, d] => {
-            let first = positive(a, b, c) && positive(a, c, d);
-            let second = positive(a, b, d) && positive(b, c, d);
-            let shorter = a.plan.distance_squared(c.plan) <= b.plan.distance_squared(d.plan);
-            if first && (shorter || !second) {
-                out.extend([[a.id, b.id, c.id], [a.id, c.id, d.id]]);
-            } else if second {
-                out.extend([[a.id, b.id, d.id], [b.id, c.id, d.id]]);
-            } else {
-                return false;
-            }
-            true
-        }
         _ => {
             let before = out.len();
-            if sweep(ring, out) {
-                return true;
-            }
-            out.truncate(before);
-            clip_ears(ring, out)
+            [STRAIGHT, 0.0].into_iter().any(|least| {
+                let done = sweep(ring, least, out) || {
+                    out.truncate(before);
+                    clip_ears(ring, least, out)
+                };
+                if !done {
+                    out.truncate(before);
+                }
+                done
+            })
         }
     }
 }
@@ -187,7 +189,7 @@ fn before(a: &Corner, b: &Corner) -> bool {
 }
 
 /// Garey–Johnson–Preparata–Tarjan sweep over a monotone polygon. False if a triangle would not be counter-clockwise.
-fn sweep(ring: &[Corner], out: &mut Vec<[PointId; 3]>) -> bool {
+fn sweep(ring: &[Corner], least: f64, out: &mut Vec<[PointId; 3]>) -> bool {
     let n = ring.len();
     let (mut low, mut high) = (0, 0);
     for i in 1..n {
@@ -215,7 +217,7 @@ fn sweep(ring: &[Corner], out: &mut Vec<[PointId; 3]>) -> bool {
     let start = out.len();
     let mut push = |a: usize, b: usize, c: usize, is_near: bool| {
         let [a, b, c] = if is_near { [a, b, c] } else { [a, c, b] };
-        let positive = left_turn(&ring[a], &ring[b], &ring[c]);
+        let positive = left_turn(&ring[a], &ring[b], &ring[c], least);
         if positive {
             out.push([ring[a].id, ring[b].id, ring[c].id]);
         }
@@ -247,14 +249,14 @@ fn sweep(ring: &[Corner], out: &mut Vec<[PointId; 3]>) -> bool {
 }
 
 /// Ear clipping, quadratic; for outlines that rounding has made slightly unmonotone.
-fn clip_ears(ring: &[Corner], out: &mut Vec<[PointId; 3]>) -> bool {
+fn clip_ears(ring: &[Corner], least: f64, out: &mut Vec<[PointId; 3]>) -> bool {
     let mut left: Vec<usize> = (0..ring.len()).collect();
     let plan = |i: usize| ring[i].plan;
     while left.len() > 3 {
         let n = left.len();
         let ear = (0..n).find(|&i| {
             let [a, b, c] = [left[(i + n - 1) % n], left[i], left[(i + 1) % n]];
-            left_turn(&ring[a], &ring[b], &ring[c])
+            left_turn(&ring[a], &ring[b], &ring[c], least)
                 && left.iter().all(|&p| {
                     [a, b, c].contains(&p)
                         || [(a, b), (b, c), (c, a)].iter().any(|&(s, t)| turn(plan(s), plan(t), plan(p)) == Turn::Right)
@@ -265,5 +267,5 @@ fn clip_ears(ring: &[Corner], out: &mut Vec<[PointId; 3]>) -> bool {
         left.remove(i);
     }
     out.push([left[0], left[1], left[2]].map(|p| ring[p].id));
-    left_turn(&ring[left[0]], &ring[left[1]], &ring[left[2]])
+    left_turn(&ring[left[0]], &ring[left[1]], &ring[left[2]], least)
 }

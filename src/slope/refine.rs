@@ -54,8 +54,8 @@ impl Cut<'_> {
         points
     }
 
-    /// Levels crossed by a straight crease.
-    fn level_points_of_segment(&self, [a, b]: [DVec3; 2]) -> Vec<DVec3> {
+    /// Where a straight line on the surface crosses levels.
+    pub fn level_points_of_segment(&self, [a, b]: [DVec3; 2]) -> Vec<DVec3> {
         let at = |c: f64| a.lerp(b, (c - a.z) / (b.z - a.z)).truncate().extend(c);
         self.levels.crossed(a.z, b.z).map(|u| at(self.levels.heights[u])).collect()
     }
@@ -96,7 +96,7 @@ impl Cut<'_> {
         for (tau, point) in stops {
             let from = points.last().map_or(ends[0], |p| p.1);
             let before = points.last().map_or(taus[0], |p| p.0);
-            let mut marks: Vec<(f64, DVec3)> = self
+            let marks: Vec<(f64, DVec3)> = self
                 .levels
                 .crossed(from.z, point.z)
                 .filter_map(|u| {
@@ -105,14 +105,6 @@ impl Cut<'_> {
                     Some((at, (sector.origin + sector.ruling(at) * ((sector.z0 - c) / sector.drop)).extend(c)))
                 })
                 .collect();
-            if let Some(reach) = self.reach
-                && let Some(at) = curve.tau_at(reach, 0.5 * (before + tau))
-                && (at - before) * (at - tau) < 0.0
-            {
-                let mark = (at, curve.point(at));
-                let place = marks.partition_point(|m| (m.0 < at) == (before < tau));
-                marks.insert(place, mark);
-            }
             for next in marks.into_iter().chain([(tau, point)]) {
                 self.halve(&curve, sector, sheet, other, &mut points, next, MAX_HALVINGS);
                 points.push(next);
@@ -151,7 +143,7 @@ impl Cut<'_> {
         self.halve(curve, sector, sheet, other, points, next, depth - 1);
     }
 
-    /// Adds the points at which a chain of chords reaches the outer distance of a strip on either side.
+    /// Adds the points at which a chain of chords reaches the outer distance of a facet on either side.
     fn with_reach(&self, points: Vec<DVec3>, ends: [DVec3; 2], facets: [&Facet; 2], reach: f64) -> Vec<DVec3> {
         let chain: Vec<DVec3> = std::iter::once(ends[0]).chain(points).chain([ends[1]]).collect();
         let mut out = Vec::with_capacity(chain.len());
@@ -159,11 +151,11 @@ impl Cut<'_> {
             out.push(w[0]);
             let mut cuts: Vec<f64> = facets
                 .iter()
-                .filter(|f| f.is_strip())
                 .filter_map(|f| {
-                    let excess = |p: DVec3| f.parameters(p.truncate()).1 - reach;
-                    let (a, b) = (excess(w[0]), excess(w[1]));
-                    (a.min(b) < -REACH_SNAP && a.max(b) > REACH_SNAP).then(|| a / (a - b))
+                    let r = |p: DVec3| f.parameters(p.truncate()).1;
+                    let (a, b) = (r(w[0]), r(w[1]));
+                    let crosses = a.min(b) < reach - REACH_SNAP && a.max(b) > reach + REACH_SNAP;
+                    crosses.then(|| if f.is_strip() { (reach - a) / (b - a) } else { on_circle(f, w[0], w[1], reach) })
                 })
                 .collect();
             cuts.sort_by(f64::total_cmp);
@@ -173,6 +165,16 @@ impl Cut<'_> {
         out.remove(0);
         out
     }
+}
+
+/// Where the chord from `a` to `b`, one inside and one outside, crosses the circle of radius `r` about a sector's node:
+/// the root in (0, 1) of `|w + t v|² = r²`.
+fn on_circle(sector: &Facet, a: DVec3, b: DVec3, r: f64) -> f64 {
+    let (w, v) = (a.truncate() - sector.origin, (b - a).truncate());
+    let (p, q, c) = (v.length_squared(), w.dot(v), w.length_squared() - r * r);
+    let root = (q * q - p * c).max(0.0).sqrt();
+    // The root of the right sign, without cancellation.
+    if c < 0.0 { if q > 0.0 { -c / (q + root) } else { (root - q) / p } } else { c / (root - q) }
 }
 
 /// Points closer to the outer distance than this (plan, length units) lie on it.

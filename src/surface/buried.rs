@@ -43,6 +43,9 @@ const SAMPLES: usize = 32;
 /// Stretches shorter than this (length units) are not reported: they are the two sides of one touching point.
 const SHORTEST: f64 = 1e-6;
 
+/// A sheet less than this above the line (length units) does not cover it: rounding of heights a kilometre apart.
+const TOUCHING: f64 = 1e-7;
+
 /// Slopes beyond this ratio count as none.
 const STEEPEST: f64 = 1e4;
 
@@ -68,7 +71,7 @@ pub(crate) fn stretches(line: &Line, sheet: &Sheet, closure: &Closure) -> Found 
             }
             let s = if f % 2 == 0 { [w[0].tau, w[1].tau] } else { [length - w[1].tau, length - w[0].tau] };
             let middle = on(sheet, edge, 0.5 * (s[0] + s[1]));
-            let covered = sheet.index.height(middle.truncate(), None).0 > middle.z;
+            let covered = sheet.index.height(middle.truncate(), None).0 > middle.z + TOUCHING;
             let at = s.map(|s| stations.of(e, s));
             parts.push((edge.given[0].chain as usize, Part { edge: e, s, covered, stations: at }));
         }

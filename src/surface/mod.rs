@@ -36,7 +36,7 @@ const BEYOND_REACH: f64 = 1e-3;
 pub enum SurfaceError {
     /// The whole line lies beyond the end of the slope.
     #[error(
-        "no part of the line lies {} elevation {end}\\n   = the line lies between {low} and {high}\\n   = help: choose an elevation {} {high_or_low}",
+        "no part of the line lies {} elevation {end}\n   = the line lies between {low} and {high}\n   = help: choose an elevation {} {high_or_low}",
         if *.rising { "below" } else { "above" }, if *.rising { "above" } else { "below" }, high_or_low = if *.rising { low } else { high }
     )]
     NothingToBuild {
@@ -50,10 +50,10 @@ pub enum SurfaceError {
         rising: bool,
     },
     /// No side of any line is wanted.
-    #[error("there is no side to build on\\n   = `inside` and `outside` need a ring\\n   = help: close the line (`--closed`), or choose `--side left`, `right` or `both`")]
+    #[error("there is no side to build on\n   = `inside` and `outside` need a ring\n   = help: close the line (`--closed`), or choose `--side left`, `right` or `both`")]
     NoSide,
     /// The interval asks for too many levels.
-    #[error("an interval of {interval} would give {count:.0} levels\\n   = at most {limit} are cut\\n   = help: use an interval of {least} or more", limit = levels::MAX_LEVELS)]
+    #[error("an interval of {interval} would give {count:.0} levels\n   = at most {limit} are cut\n   = help: use an interval of {least} or more", limit = levels::MAX_LEVELS)]
     TooManyLevels {
         /// The interval asked for.
         interval: f64,
@@ -63,7 +63,7 @@ pub enum SurfaceError {
         least: f64,
     },
     /// A platform lies below the slope of another part.
-    #[error("the slope of one part covers the platform of another near ({x:.3}, {y:.3})\\n   = {what}\\n   = help: build the parts one by one, move them apart, or use a steeper slope")]
+    #[error("the slope of one part covers the platform of another near ({x:.3}, {y:.3})\n   = {what}\n   = help: build the parts one by one, move them apart, or use a steeper slope")]
     PlatformCovered {
         /// Place.
         x: f64,
@@ -85,7 +85,7 @@ pub enum SurfaceError {
         cause: RegionError,
     },
     /// The facets do not glue to one surface.
-    #[error("the surface could not be closed near ({x:.3}, {y:.3})\\n   = {unpaired} of {arcs} pieces of creases have no counterpart\\n   = help: try another `--tolerance`; this is a limit of the program, please report the line")]
+    #[error("the surface could not be closed near ({x:.3}, {y:.3})\n   = {unpaired} of {arcs} pieces of creases have no counterpart\n   = help: try another `--tolerance`; this is a limit of the program, please report the line")]
     Unclosed {
         /// Place.
         x: f64,
@@ -97,7 +97,7 @@ pub enum SurfaceError {
         arcs: usize,
     },
     /// The mesh failed its own check.
-    #[error("the mesh failed its check: {what}\\n   = help: try another `--tolerance`; this is a limit of the program, please report the line")]
+    #[error("the mesh failed its check: {what}\n   = help: try another `--tolerance`; this is a limit of the program, please report the line")]
     Unsound {
         /// Which figure is out of bounds.
         what: String,

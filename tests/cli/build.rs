@@ -119,7 +119,7 @@ fn beyond_the_end_there_is_no_slope() {
 }
 
 /// Two level lines that cross in plan, one 3 above the other.
-const CROSSING: &str = "line,x,y,z\nlow,1000,1050,10\nlow,1100,1050,10\nhigh,1050,1000,13\nhigh,1050,1100,13\n";
+const CROSSING: &str = "line,x,y,z\nlow,1000,1050,10.03\nlow,1100,1050,10.03\nhigh,1050,1000,13.03\nhigh,1050,1100,13.03\n";
 
 #[test]
 fn buried_stretches_are_told() {

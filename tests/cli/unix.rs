@@ -85,8 +85,11 @@ fn an_interrupt_leaves_no_files() {
         assert!(begun.elapsed() < super::PATIENCE, "the outputs were never opened");
         std::thread::sleep(std::time::Duration::from_millis(10));
     }
+    // Held open: waiting for the child would close it, and the program would see an empty input.
+    let stdin = child.stdin.take();
     let id = child.id().to_string();
     assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
     assert_eq!(child.wait().unwrap().code(), Some(130));
+    drop(stdin);
     assert!(site.new_files().is_empty(), "{:?}", site.new_files());
 }
