@@ -255,3 +255,81 @@ fn files_stay_short() {
         }
     }
 }
+
+/// Code spans of a document that name something in the source: paths, types, constants, functions with an underscore.
+fn names_in(document: &str) -> Vec<String> {
+    let spans = document.split('`').skip(1).step_by(2);
+    let is_name = |span: &&str| {
+        let plain = span.chars().all(|c| c.is_alphanumeric() && c.is_ascii() || c == '_' || c == ':');
+        let starts = span.starts_with(|c: char| c.is_ascii_alphabetic());
+        let telling = span.contains("::") || span.contains('_') || span.chars().filter(char::is_ascii_uppercase).count() > 1;
+        let long_type = span.len() > 3 && span.starts_with(|c: char| c.is_ascii_uppercase());
+        plain && starts && (telling || long_type)
+    };
+    spans.filter(is_name).map(str::to_owned).collect()
+}
+
+#[test]
+fn documents_speak_of_what_there_is() {
+    let sources = sources();
+    let mut found = Vec::new();
+    let mut names = 0;
+    for name in ["architecture.md", "theory.md", "glossary.md"] {
+        let document = fs::read_to_string(root().join("docs").join(name)).unwrap();
+        // Formulas stand in fenced blocks.
+        let text: String = document.split("```").step_by(2).collect();
+        for path in names_in(&text) {
+            names += 1;
+            // Symbols of formulas such as `z_A` are no names; a name of the source has three letters in a row.
+            let last = path.rsplit("::").next().unwrap().trim_end_matches('_');
+            let letters = last.split(|c: char| !c.is_ascii_alphabetic()).map(str::len).max().unwrap_or(0);
+            let known = |source: &Source| source.lines.iter().any(|l| has_word(&l.1, last));
+            let module = |source: &Source| source.path.iter().any(|p| p.to_str().unwrap().trim_end_matches(".rs") == last);
+            let prefix = path.ends_with('_') && sources.iter().any(|s| s.lines.iter().any(|l| l.1.contains(last)));
+            let package = fs::read_to_string(root().join("Cargo.toml")).unwrap().contains(last);
+            if letters > 2 && !(prefix || package || sources.iter().any(|s| known(s) || module(s))) {
+                found.push(format!("docs/{name}: `{path}`"));
+            }
+        }
+    }
+    complain("a document names what the source does not have", &found);
+    assert!(names > 60, "only {names} names were found: the search is broken");
+}
+
+#[test]
+fn tolerances_are_those_of_the_source() {
+    let theory = fs::read_to_string(root().join("docs/theory.md")).unwrap();
+    let mut checked = 0;
+    for row in theory.lines().filter(|line| line.starts_with("| `")) {
+        let mut cells = row.split('|').map(str::trim).skip(1);
+        let (path, value) = (cells.next().unwrap().trim_matches('`'), cells.next().unwrap());
+        let Some((module, name)) = path.rsplit_once("::").filter(|(_, name)| has_word(&name.to_uppercase(), name)) else {
+            continue;
+        };
+        let file = root().join("src").join(module.replace("::", "/"));
+        let text = fs::read_to_string(file.with_extension("rs")).or_else(|_| fs::read_to_string(file.join("mod.rs"))).unwrap();
+        let written = text.split(&format!("const {name}: f64 = ")).nth(1).and_then(|rest| rest.split(';').next());
+        let written = written.unwrap_or_else(|| panic!("`{path}` is not in the source"));
+        let (ours, theirs) = (sum_of(value), sum_of(&written.replace('_', "").replace(" - ", " − ")));
+        assert_eq!(ours, theirs, "`{path}` is {written} in the source, {value} in docs/theory.md");
+        checked += 1;
+    }
+    assert!(checked > 12, "only {checked} tolerances were found: the search is broken");
+}
+
+/// The value of `1 − 10⁻⁹`, `0.115 rad`, `1e-6`.
+fn sum_of(text: &str) -> f64 {
+    let term = |text: &str| -> f64 {
+        let text = text.trim().trim_end_matches(" rad");
+        let digit = |c: char| {
+            "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|s| s == c).map_or(if c == '⁻' { '-' } else { c }, |d| (b'0' + d as u8) as char)
+        };
+        match text.strip_prefix("10") {
+            Some(power) if !power.is_empty() => format!("1e{}", power.chars().map(digit).collect::<String>()).parse().unwrap(),
+            _ => text.parse().unwrap_or_else(|e| panic!("`{text}`: {e}")),
+        }
+    };
+    let mut terms = text.split(" − ").map(term);
+    let first = terms.next().unwrap();
+    terms.fold(first, |sum, term| sum - term)
+}
