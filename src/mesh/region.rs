@@ -31,14 +31,16 @@ impl HasPosition for Vertex {
     }
 }
 
-/// Triangulates the region on the left of the directed `outline`, using its vertices only (constrained Delaunay).
+/// Triangulates the region on the left of the directed `outline`, using its vertices only.
 ///
-/// `points` are all mesh vertices; the outline consists of closed loops, already noded: edges meet at common vertices only.
-/// Returns counter-clockwise triangles of mesh vertices.
+/// `points` are all mesh vertices. The outline consists of closed loops, already noded: edges meet at common vertices only.
+/// Each edge is straight and lists its vertices from end to end; the ends are triangulated (constrained Delaunay), then the
+/// triangle at each edge is fanned out to the vertices between. So thousands of vertices on one straight edge cost nothing
+/// and never form triangles among themselves. Returns counter-clockwise triangles of mesh vertices.
 ///
 /// # Errors
 /// [`RegionError::Crossing`] and [`RegionError::Open`] if the outline is not what is asked for.
-pub fn fill(points: &[DVec3], outline: &[[u32; 2]]) -> Result<Vec<[u32; 3]>, RegionError> {
+pub fn fill(points: &[DVec3], outline: &[Vec<u32>]) -> Result<Vec<[u32; 3]>, RegionError> {
     let mut local: FxHashMap<u32, usize> = FxHashMap::default();
     let mut vertices: Vec<Vertex> = Vec::new();
     let mut number = |id: u32| {
@@ -48,7 +50,8 @@ pub fn fill(points: &[DVec3], outline: &[[u32; 2]]) -> Result<Vec<[u32; 3]>, Reg
             vertices.len() - 1
         })
     };
-    let edges: Vec<[usize; 2]> = outline.iter().map(|e| e.map(&mut number)).collect();
+    let ends: Vec<[u32; 2]> = outline.iter().map(|edge| [edge[0], edge[edge.len() - 1]]).collect();
+    let edges: Vec<[usize; 2]> = ends.iter().map(|e| e.map(&mut number)).collect();
     let place = |id: u32| points[id as usize];
     let ids: Vec<u32> = vertices.iter().map(|v| v.id).collect();
     let mut crossing = None;
@@ -62,7 +65,7 @@ pub fn fill(points: &[DVec3], outline: &[[u32; 2]]) -> Result<Vec<[u32; 3]>, Reg
     let handle: FxHashMap<u32, _> = triangulation.vertices().map(|v| (v.data().id, v.fix())).collect();
     let mut inside = vec![false; triangulation.num_all_faces()];
     let mut pending: Vec<FixedFaceHandle<InnerTag>> = Vec::new();
-    for &[a, b] in outline {
+    for &[a, b] in &ends {
         let open = || RegionError::Open(place(a));
         let (Some(&from), Some(&to)) = (handle.get(&a), handle.get(&b)) else { return Err(open()) };
         let edge = triangulation.get_edge_from_neighbors(from, to).ok_or_else(open)?;
@@ -82,11 +85,30 @@ pub fn fill(points: &[DVec3], outline: &[[u32; 2]]) -> Result<Vec<[u32; 3]>, Reg
             }
         }
     }
-    Ok(triangulation
-        .inner_faces()
-        .filter(|face| inside[face.fix().index()])
-        .map(|face| face.vertices().map(|v| v.data().id))
-        .collect())
+    let between: FxHashMap<[u32; 2], &[u32]> =
+        ends.iter().zip(outline).filter(|(_, edge)| edge.len() > 2).map(|(&e, edge)| (e, &edge[1..edge.len() - 1])).collect();
+    let mut triangles = Vec::new();
+    for face in triangulation.inner_faces().filter(|face| inside[face.fix().index()]) {
+        fan_out(face.vertices().map(|v| v.data().id), &between, &mut triangles);
+    }
+    Ok(triangles)
+}
+
+/// Splits a triangle at the vertices on its edges.
+fn fan_out(triangle: [u32; 3], between: &FxHashMap<[u32; 2], &[u32]>, out: &mut Vec<[u32; 3]>) {
+    let [a, b, c] = triangle;
+    for [a, b, c] in [[a, b, c], [b, c, a], [c, a, b]] {
+        if let Some(inner) = between.get(&[a, b]) {
+            let mut from = a;
+            for &to in inner.iter().chain([&b]) {
+                // The parts of the edge itself have no vertices between; the two outer parts keep the other edges.
+                fan_out([from, to, c], between, out);
+                from = to;
+            }
+            return;
+        }
+    }
+    out.push(triangle);
 }
 
 #[cfg(test)]
@@ -100,7 +122,7 @@ mod tests {
     #[test]
     fn fills_a_ring_with_a_hole() {
         let points: Vec<DVec3> = square(0.0, 10.0).into_iter().chain(square(4.0, 6.0)).collect();
-        let outline = [[0, 1], [1, 2], [2, 3], [3, 0], [5, 4], [6, 5], [7, 6], [4, 7]];
+        let outline = [[0, 1], [1, 2], [2, 3], [3, 0], [5, 4], [6, 5], [7, 6], [4, 7]].map(Vec::from);
         let triangles = fill(&points, &outline).unwrap();
         let area: f64 = triangles
             .iter()
@@ -111,9 +133,23 @@ mod tests {
     }
 
     #[test]
+    fn fans_out_to_vertices_on_all_edges() {
+        let mut points = square(0.0, 4.0)[..3].to_vec();
+        points.extend([(1.0, 0.0), (3.0, 0.0), (4.0, 2.0), (2.0, 2.0)].map(|(x, y)| DVec3::new(x, y, 1.0)));
+        let triangles = fill(&points, &[vec![0, 3, 4, 1], vec![1, 5, 2], vec![2, 6, 0]]).unwrap();
+        assert_eq!(triangles.len(), 5, "{triangles:?}");
+        let area = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|v| points[v as usize].truncate());
+            0.5 * (b - a).perp_dot(c - a)
+        };
+        assert!(triangles.iter().all(|t| area(t) > 0.0));
+        assert_eq!(triangles.iter().map(area).sum::<f64>(), 8.0);
+    }
+
+    #[test]
     fn refuses_crossing_and_open_outlines() {
         let points = square(0.0, 10.0);
-        assert!(matches!(fill(&points, &[[0, 2], [2, 1], [1, 3], [3, 0]]), Err(RegionError::Crossing(_))));
-        assert!(matches!(fill(&points, &[[0, 1], [1, 2]]), Err(RegionError::Open(_))));
+        assert!(matches!(fill(&points, &[[0, 2], [2, 1], [1, 3], [3, 0]].map(Vec::from)), Err(RegionError::Crossing(_))));
+        assert!(matches!(fill(&points, &[[0, 1], [1, 2]].map(Vec::from)), Err(RegionError::Open(_))));
     }
 }

@@ -428,14 +428,12 @@ impl<'a> State<'a> {
                 if let Some((neighbour, vertex)) = self.beyond(f, kb, plan, a, b) {
                     return self.step_over(f, kb, neighbour, vertex, a, b, tau);
                 }
-                return match self.sheet.intruder(f, ka, kb, x) {
-                    None => {
-                        let point = plan.extend(self.sheet.height_dd(f, x).to_f64());
-                        Between::Junction { tau, left: ka, right: kb, point }
-                    }
+                if self.sheet.intruded(f, ka, kb, x) {
                     // The intruder need not be what the ruling meets first, and its plane reaches farther than its strip: look.
-                    Some(_) => self.hint_by_looking(f, a, b, tau),
-                };
+                    return self.hint_by_looking(f, a, b, tau);
+                }
+                let point = plan.extend(self.sheet.height_dd(f, x).to_f64());
+                return Between::Junction { tau, left: ka, right: kb, point };
             }
         }
         self.hint_by_looking(f, a, b, tau)

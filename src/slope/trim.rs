@@ -9,9 +9,6 @@ use crate::kernel::dd::{Dd, DdVec2};
 use crate::sheet::{Index, Ruling, Segment};
 use glam::{DVec2, DVec3};
 
-/// Heights that differ by less than this part of the largest coordinate are compared in double-double.
-const NEAR_TIE: f64 = 1e-10;
-
 /// Heights that differ by less (length units, in double-double) are equal: more facets meet there than a vertex needs.
 const TIE: f64 = 1e-22;
 
@@ -30,8 +27,6 @@ pub struct Sheet<'a> {
     pub k: f64,
     /// Height of the pseudo-facet [`END`].
     pub end: f64,
-    /// Height difference below which heights are compared in double-double.
-    near: f64,
 }
 
 /// Where a ruling ends.
@@ -58,8 +53,12 @@ pub fn index_of(network: &Network, k: f64) -> Index {
 impl<'a> Sheet<'a> {
     /// Puts the parts together; `end` is the height at which the sheet stops.
     pub fn new(network: &'a Network, fans: &'a Fans, index: &'a Index, k: f64, end: f64) -> Self {
-        let scale = network.nodes.iter().fold(1.0_f64, |m, p| m.max(p.abs().max_element())).max(end.abs());
-        Self { network, fans, index, k, end, near: NEAR_TIE * scale }
+        Self { network, fans, index, k, end }
+    }
+
+    /// Heights at `x` that differ by less are compared in double-double: rounding may hide which is higher.
+    fn near(&self, x: DVec2) -> f64 {
+        2.0 * self.index.rounding(x)
     }
 
     /// A facet.
@@ -221,7 +220,7 @@ impl<'a> Sheet<'a> {
         let d = self.facet(joint.strip).gradient.scale(-Dd::ONE / Dd::from(self.k));
         let length = |k: FacetId| self.joint_length(foot, d, k);
         let mut best = length(tip.partner);
-        self.index.visit_above(tip.point.truncate(), tip.point.z - self.near, |e| {
+        self.index.visit_above(tip.point.truncate(), tip.point.z - self.near(tip.point.truncate()), |e| {
             if self.touches(e, joint.node) {
                 return;
             }
@@ -271,30 +270,28 @@ impl<'a> Sheet<'a> {
         covered
     }
 
-    /// A facet that is higher at `x` than `f`, which meets `a` and `b` there, if there is one: the highest.
-    pub fn intruder(&self, f: FacetId, a: FacetId, b: FacetId, x: DdVec2) -> Option<FacetId> {
+    /// Whether another facet is higher at `x` than `f`, which meets `a` and `b` there.
+    pub fn intruded(&self, f: FacetId, a: FacetId, b: FacetId, x: DdVec2) -> bool {
         let own = self.height_dd(f, x);
-        let plan = x.to_f64();
-        let mut highest = own + Dd::from(TIE);
-        let mut found = None;
-        if ![a, b].contains(&END) && Dd::from(self.end) > highest {
-            highest = Dd::from(self.end);
-            found = Some(END);
+        let limit = own + Dd::from(TIE);
+        if ![a, b].contains(&END) && Dd::from(self.end) > limit {
+            return true;
         }
-        let mut floor = own.to_f64() - self.near;
-        self.index.visit_above(plan, floor, |e| {
-            let rough = self.index.segment(e).height(plan, self.k);
-            if rough < floor || [f, a, b].iter().any(|&g| g != END && self.belongs(g, e)) {
-                return;
-            }
-            let height = self.edge_height_dd(e, x);
-            if height > highest {
-                highest = height;
-                found = Some(self.facet_at(e, plan));
-                floor = floor.max(height.to_f64() - self.near);
-            }
+        let plan = x.to_f64();
+        let near = self.near(plan);
+        let hint = match self.facet(f).kind {
+            Kind::Strip(h) => h / 2,
+            Kind::Sector(node) => self.fans.leaving(node)[0] / 2,
+        };
+        if self.index.height(plan, Some(hint)).0 > own.to_f64() + near {
+            return true;
+        }
+        let mut intruded = false;
+        self.index.visit_above(plan, own.to_f64() - near, |e| {
+            intruded = intruded
+                || ([f, a, b].iter().all(|&g| g == END || !self.belongs(g, e)) && self.edge_height_dd(e, x) > limit);
         });
-        found
+        intruded
     }
 
     /// The joint through which facets `a` and `b` are neighbours, with `a` on the left.

@@ -41,7 +41,7 @@ pub(super) fn fill(
 }
 
 /// Edges of the line with the unsloped inside of a ring on their left.
-fn platform_outline(network: &Network, slopes: &Slopes) -> Vec<[u32; 2]> {
+fn platform_outline(network: &Network, slopes: &Slopes) -> Vec<Vec<u32>> {
     let mut outline = Vec::new();
     for (edge, inner) in network.edges.iter().zip(&slopes.edge_points) {
         for side in 0..2 {
@@ -54,14 +54,14 @@ fn platform_outline(network: &Network, slopes: &Slopes) -> Vec<[u32; 2]> {
             if side == 1 {
                 ids.reverse();
             }
-            outline.extend(ids.windows(2).map(|w| [w[0], w[1]]));
+            outline.push(ids);
         }
     }
     outline
 }
 
 /// The boundary of the slopes away from the line, with the slopes on its right.
-fn rim(slopes: &Slopes) -> Vec<[u32; 2]> {
+fn rim(slopes: &Slopes) -> Vec<Vec<u32>> {
     let hinge: FxHashSet<[u32; 2]> = slopes
         .traces
         .iter()
@@ -69,7 +69,7 @@ fn rim(slopes: &Slopes) -> Vec<[u32; 2]> {
         .flat_map(|&(_, [a, b])| [[a, b], [b, a]])
         .collect();
     let edges = HalfEdges::new(slopes.points.len(), &slopes.triangles);
-    edges.open().into_iter().filter(|e| !hinge.contains(e)).map(|[a, b]| [b, a]).collect()
+    edges.open().into_iter().filter(|e| !hinge.contains(e)).map(|[a, b]| vec![b, a]).collect()
 }
 
 fn flat_error(network: &Network, part: &'static str, cause: RegionError) -> SurfaceError {
