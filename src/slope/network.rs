@@ -5,6 +5,8 @@ use crate::kernel::frame::Frame;
 use crate::kernel::segment_tree::SegmentTree;
 use crate::model::{Design, Line, Role, Sheet, Side};
 use glam::{DVec2, DVec3};
+use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 /// Vertices closer than this (length units, 3D) are one vertex.
@@ -232,53 +234,50 @@ fn plan_box(line: &Line) -> (DVec2, DVec2) {
 ///
 /// Returns the nodes and the node of every vertex by chain.
 fn weld(line: &Line, frame: &Frame, sign: f64) -> (Vec<DVec3>, Vec<Vec<u32>>) {
-    let mut points: Vec<DVec3> = Vec::with_capacity(line.vertex_count());
-    let mut of_vertex = Vec::with_capacity(line.chains.len());
-    let mut cells: FxHashMap<[i64; 3], Vec<u32>> = FxHashMap::default();
-    // A simple ring cannot meet itself, so a single one needs no search.
-    let search = line.chains.len() > 1 || !line.chains[0].closed();
-    for chain in &line.chains {
-        let mut nodes = Vec::with_capacity(chain.vertices.len());
-        for &vertex in &chain.vertices {
-            let local = frame.to_local(vertex);
-            let p = DVec3::new(local.x, local.y, sign * local.z);
-            let found = if search { find_near(&cells, &points, p) } else { None };
-            let node = found.unwrap_or_else(|| {
-                points.push(p);
-                let id = points.len() as u32 - 1;
-                if search {
-                    cells.entry(cell(p)).or_default().push(id);
-                }
-                id
-            });
-            nodes.push(node);
-        }
-        of_vertex.push(nodes);
+    let local = |vertex: DVec3| {
+        let p = frame.to_local(vertex);
+        DVec3::new(p.x, p.y, sign * p.z)
+    };
+    let all: Vec<DVec3> = line.chains.iter().flat_map(|c| &c.vertices).map(|&v| local(v)).collect();
+    let first = first_within(line, &all);
+    let mut points: Vec<DVec3> = Vec::with_capacity(all.len());
+    let mut node_of: Vec<u32> = Vec::with_capacity(all.len());
+    for (i, &p) in all.iter().enumerate() {
+        let node = if first[i] < i {
+            node_of[first[i]]
+        } else {
+            points.push(p);
+            points.len() as u32 - 1
+        };
+        node_of.push(node);
     }
+    let mut rest = node_of.as_slice();
+    let of_vertex = line.chains.iter().map(|c| {
+        let (nodes, tail) = rest.split_at(c.vertices.len());
+        rest = tail;
+        nodes.to_vec()
+    });
+    let of_vertex = of_vertex.collect();
     (points, of_vertex)
 }
 
-/// Side of the cells of the weld grid: wide against the weld distance, so that a point seldom needs a neighbour.
-const WELD_CELL: f64 = 64.0 * WELD_DISTANCE;
-
-fn cell(p: DVec3) -> [i64; 3] {
-    [p.x, p.y, p.z].map(|v| (v / WELD_CELL).floor() as i64)
-}
-
-fn find_near(cells: &FxHashMap<[i64; 3], Vec<u32>>, points: &[DVec3], p: DVec3) -> Option<u32> {
-    let (lo, hi) = (cell(p - WELD_DISTANCE), cell(p + WELD_DISTANCE));
-    for x in lo[0]..=hi[0] {
-        for y in lo[1]..=hi[1] {
-            for z in lo[2]..=hi[2] {
-                if let Some(ids) = cells.get(&[x, y, z])
-                    && let Some(&id) = ids.iter().find(|&&id| points[id as usize].distance(p) <= WELD_DISTANCE)
-                {
-                    return Some(id);
-                }
-            }
-        }
+/// For each point the first one within the weld distance, itself at the latest.
+fn first_within(line: &Line, points: &[DVec3]) -> Vec<usize> {
+    let own: Vec<usize> = (0..points.len()).collect();
+    if line.chains.len() == 1 && line.chains[0].closed() {
+        // A simple ring does not meet itself.
+        return own;
     }
-    None
+    let coordinates: Vec<[f64; 3]> = points.iter().map(|p| p.to_array()).collect();
+    // Validated coordinates are finite, the only thing the tree could object to.
+    let Ok(tree) = ImmutableKdTree::<f64, 3>::new_from_slice(&coordinates) else { return own };
+    own.into_par_iter()
+        .map(|i| {
+            let near =
+                tree.query(&coordinates[i]).within::<SquaredEuclidean<f64>>(WELD_DISTANCE * WELD_DISTANCE).unsorted().execute();
+            near.into_iter().map(|n| n.item as usize).min().unwrap_or(i).min(i)
+        })
+        .collect()
 }
 
 /// The segments of the line with the nodes that lie on them: (place, node), from start to end.

@@ -1,5 +1,6 @@
 //! Stretches of the line that lie below the slope of another part, in the words of the line: chains and stations.
 
+use crate::kernel::orientation::turn;
 use crate::model::{Design, Line, Note, Sheet as SheetKind};
 use crate::sheet::Segment;
 use crate::slope::closure::Closure;
@@ -141,8 +142,22 @@ fn describe(sheet: &Sheet, stations: &Stations, chain: usize, [from, to]: [f64; 
         at: sheet.network.world(place).truncate(),
         by_chain: sheet.network.edges[by as usize].given[0].chain as usize,
         by_station: stations.of(by as usize, foot),
-        free_slope: free_slope(sheet, &samples),
+        free_slope: if crossed(sheet, group) { None } else { free_slope(sheet, &samples) },
     }
+}
+
+/// Whether another edge crosses the stretch in plan: then it is covered there whatever the slope.
+fn crossed(sheet: &Sheet, group: &[(usize, Part)]) -> bool {
+    let ends = |edge: &Edge| [edge.a, edge.b].map(|v| sheet.network.nodes[v as usize].truncate());
+    group.iter().any(|(_, part)| {
+        let edge = &sheet.network.edges[part.edge];
+        let stretch = part.s.map(|s| on(sheet, edge, s).truncate());
+        let apart = |[a, b]: [DVec2; 2], [c, d]: [DVec2; 2]| turn(a, b, c) == turn(a, b, d);
+        sheet.network.edges.iter().any(|other| {
+            let joined = [other.a, other.b].iter().any(|v| [edge.a, edge.b].contains(v));
+            !joined && !apart(stretch, ends(other)) && !apart(ends(other), stretch)
+        })
+    })
 }
 
 /// The least slope at which no other part covers the samples: the greatest `(z_q − z_p)/|p − q|` over points `q` of the line,
