@@ -29,8 +29,10 @@ doc:
 bench:
     cargo bench
 
-# The picture of the README, from a fixture
+# The pictures of the README, from fixtures
 picture:
     mkdir -p out
-    cargo run --release -- build fixtures/road.geojson --slope 1:1.5 -o out/road.obj --lines out/road_lines.geojson --report out/road.json
+    cargo run --release -- build fixtures/road.geojson --slope 1:1.5 -o out/road.obj --lines out/road_lines.geojson
+    cargo run --release -- build fixtures/pad.geojson --slope 1:2 --to-elevation 405 -o out/pad.obj --lines out/pad_lines.geojson
     cargo run --release --example picture -- out/road.obj docs/road.png --lines out/road_lines.geojson
+    cargo run --release --example picture -- out/pad.obj docs/pad.png --lines out/pad_lines.geojson --width 800

@@ -16,8 +16,8 @@ pub struct Soundness {
     pub pinched: usize,
     /// Vertices no triangle uses.
     pub unused: usize,
-    /// Pairs of boundary edges that cross in plan: where there are none and all triangles are counter-clockwise, no two
-    /// triangles overlap.
+    /// Pairs of boundary edges that cross in plan, or else loops of the boundary inside which the mesh lies on itself: where
+    /// there are none and all triangles are counter-clockwise, no two triangles overlap.
     pub overlaps: usize,
     /// A place of the first overlap.
     pub overlap_at: Option<DVec2>,
@@ -95,7 +95,8 @@ pub fn check(points: &[DVec3], triangles: &[[u32; 3]], edges: &HalfEdges) -> Sou
         soundness.unused += usize::from(ends.is_empty());
         soundness.repeated_edges += ends.windows(2).filter(|w| w[0] == w[1]).count();
     }
-    (soundness.overlaps, soundness.overlap_at) = crossings(points, &soundness.boundary);
+    let overlaps = Overlaps::new(points, &soundness.boundary);
+    (soundness.overlaps, soundness.overlap_at) = overlaps.count();
     soundness
 }
 
@@ -116,31 +117,85 @@ fn loops(open: &[[u32; 2]]) -> Vec<[u32; 2]> {
     ordered
 }
 
-/// Pairs of boundary edges that cross, and the place of the first.
-fn crossings(points: &[DVec3], boundary: &[[u32; 2]]) -> (usize, Option<DVec2>) {
-    let plan = |v: u32| points[v as usize].truncate();
-    let ends: Vec<(DVec2, DVec2)> = boundary.iter().map(|e| (plan(e[0]), plan(e[1]))).collect();
-    if ends.is_empty() {
-        return (0, None);
+/// The boundary in plan, to find out whether the mesh lies on itself.
+struct Overlaps<'a> {
+    boundary: &'a [[u32; 2]],
+    ends: Vec<(DVec2, DVec2)>,
+}
+
+impl<'a> Overlaps<'a> {
+    fn new(points: &[DVec3], boundary: &'a [[u32; 2]]) -> Self {
+        let plan = |v: u32| points[v as usize].truncate();
+        Self { boundary, ends: boundary.iter().map(|e| (plan(e[0]), plan(e[1]))).collect() }
     }
-    let mut count = 0;
-    let mut place = None;
-    SegmentTree::new(&ends).pairs(|i, j| {
-        let ([a, b], [c, d]) = (boundary[i], boundary[j]);
-        if [a, b].contains(&c) || [a, b].contains(&d) {
-            return true;
+
+    /// Pairs of boundary edges that cross; where none do, loops with anything but one layer on their inner side. And the place
+    /// of the first.
+    fn count(&self) -> (usize, Option<DVec2>) {
+        if self.ends.is_empty() {
+            return (0, None);
         }
-        let ((p, q), (r, s)) = (ends[i], ends[j]);
-        let across = |a: DVec2, b: DVec2, c: DVec2, d: DVec2| {
-            matches!((turn(a, b, c), turn(a, b, d)), (Turn::Left, Turn::Right) | (Turn::Right, Turn::Left))
-        };
-        if across(p, q, r, s) && across(r, s, p, q) {
-            count += 1;
-            place.get_or_insert(0.5 * (p + q));
+        let tree = SegmentTree::new(&self.ends);
+        let crossings = self.crossings(&tree);
+        if crossings.0 > 0 { crossings } else { self.layers(&tree) }
+    }
+
+    fn crossings(&self, tree: &SegmentTree) -> (usize, Option<DVec2>) {
+        let mut count = 0;
+        let mut place = None;
+        tree.pairs(|i, j| {
+            let ([a, b], [c, d]) = (self.boundary[i], self.boundary[j]);
+            if [a, b].contains(&c) || [a, b].contains(&d) {
+                return true;
+            }
+            let ((p, q), (r, s)) = (self.ends[i], self.ends[j]);
+            let across = |a: DVec2, b: DVec2, c: DVec2, d: DVec2| {
+                matches!((turn(a, b, c), turn(a, b, d)), (Turn::Left, Turn::Right) | (Turn::Right, Turn::Left))
+            };
+            if across(p, q, r, s) && across(r, s, p, q) {
+                count += 1;
+                place.get_or_insert(0.5 * (p + q));
+            }
+            true
+        });
+        (count, place)
+    }
+
+    /// Loops whose inner side does not have winding number one: a triangle mesh covers a place as often as its boundary winds
+    /// around it.
+    fn layers(&self, tree: &SegmentTree) -> (usize, Option<DVec2>) {
+        let mut count = 0;
+        let mut place = None;
+        for range in self.loops() {
+            let height = |i: &usize| (self.ends[*i].1.y - self.ends[*i].0.y).abs();
+            let Some(edge) = range.max_by(|i, j| height(i).total_cmp(&height(j))) else { continue };
+            let (a, b) = self.ends[edge];
+            let p = 0.5 * (a + b);
+            // Just left of a rising edge a ray to the right crosses that edge too; left of a falling one it does not.
+            let mut winding = i32::from(b.y > a.y);
+            tree.ray(p, |i| {
+                let (c, d) = self.ends[i];
+                if i != edge {
+                    winding += i32::from(c.y <= p.y && p.y < d.y && turn(c, d, p) == Turn::Left);
+                    winding -= i32::from(d.y <= p.y && p.y < c.y && turn(c, d, p) == Turn::Right);
+                }
+            });
+            if winding != 1 {
+                count += 1;
+                place.get_or_insert(p);
+            }
         }
-        true
-    });
-    (count, place)
+        (count, place)
+    }
+
+    /// Index ranges of the loops.
+    fn loops(&self) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
+        let breaks: Vec<usize> = (0..self.boundary.len())
+            .filter(|&i| i == 0 || self.boundary[i - 1][1] != self.boundary[i][0])
+            .chain([self.boundary.len()])
+            .collect();
+        (0..breaks.len() - 1).map(move |i| breaks[i]..breaks[i + 1])
+    }
 }
 
 #[cfg(test)]
@@ -172,5 +227,22 @@ mod tests {
         let star = points(&[(0.0, 0.0), (4.0, 0.0), (2.0, 3.0), (0.0, 2.0), (2.0, -1.0), (4.0, 2.0)]);
         let crossed = checked(&star, &[[0, 1, 2], [3, 4, 5]]);
         assert_eq!((crossed.turned, crossed.overlaps), (0, 6));
+    }
+
+    #[test]
+    fn a_piece_above_another_is_seen() {
+        // A small triangle over a large one, and beside it.
+        let over = points(&[(0.0, 0.0), (9.0, 0.0), (0.0, 9.0), (1.0, 1.0), (2.0, 1.0), (1.0, 2.0)]);
+        assert_eq!(checked(&over, &[[0, 1, 2], [3, 4, 5]]).overlaps, 1);
+        let beside = points(&[(0.0, 0.0), (9.0, 0.0), (0.0, 9.0), (11.0, 1.0), (12.0, 1.0), (11.0, 2.0)]);
+        assert_eq!(checked(&beside, &[[0, 1, 2], [3, 4, 5]]).overlaps, 0);
+    }
+
+    #[test]
+    fn a_ring_has_one_layer() {
+        let ring = points(&[(0.0, 0.0), (9.0, 0.0), (0.0, 9.0), (1.0, 1.0), (2.0, 1.0), (1.0, 2.0)]);
+        let triangles = [[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4], [2, 0, 3], [2, 3, 5]];
+        let found = checked(&ring, &triangles);
+        assert_eq!((found.turned, found.overlaps, found.boundary.len()), (0, 0, 6));
     }
 }

@@ -2,8 +2,11 @@
 
 use super::simplify::{self, Chord};
 use crate::kernel::frame::Frame;
+use crate::kernel::segment_tree::SegmentTree;
 use crate::model::{Design, Line, Role, Sheet, Side};
 use glam::{DVec2, DVec3};
+use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 /// Vertices closer than this (length units, 3D) are one vertex.
@@ -33,6 +36,8 @@ pub struct Given {
     pub chain: u32,
     /// Vertex within the chain.
     pub vertex: u32,
+    /// Part of the way to the next vertex, from 0 up to 1: not 0 only where lines meet between vertices.
+    pub part: f64,
 }
 
 /// A vertex between the ends of an edge, on the chord.
@@ -88,8 +93,8 @@ struct Piece {
     ends: [u32; 2],
     wanted: [bool; 2],
     interior: [bool; 2],
-    /// The segment of the line it is.
-    given: Given,
+    /// The places of its ends on the line.
+    given: [Given; 2],
 }
 
 impl Network {
@@ -100,8 +105,9 @@ impl Network {
         let (min, max) = plan_box(line);
         let frame = Frame::around(min, max);
         let sign = if design.sheet == Sheet::Rising { -1.0 } else { 1.0 };
-        let (points, of_vertex) = weld(line, &frame, sign);
-        let pieces = pieces(line, design, &of_vertex);
+        let (mut points, of_vertex) = weld(line, &frame, sign);
+        let segments = Segments::new(line, &of_vertex).noded(&mut points, line);
+        let pieces = pieces(line, design, &segments);
         Self { frame, sign, nodes: points, edges: Vec::new(), simplified: 0, collinear: 0, simplified_max: 0.0 }.with_edges(
             &pieces,
             design.slope.ratio(),
@@ -228,57 +234,136 @@ fn plan_box(line: &Line) -> (DVec2, DVec2) {
 ///
 /// Returns the nodes and the node of every vertex by chain.
 fn weld(line: &Line, frame: &Frame, sign: f64) -> (Vec<DVec3>, Vec<Vec<u32>>) {
-    let mut points: Vec<DVec3> = Vec::with_capacity(line.vertex_count());
-    let mut of_vertex = Vec::with_capacity(line.chains.len());
-    let mut cells: FxHashMap<[i64; 3], Vec<u32>> = FxHashMap::default();
-    // A simple ring cannot meet itself, so a single one needs no search.
-    let search = line.chains.len() > 1 || !line.chains[0].closed();
-    for chain in &line.chains {
-        let mut nodes = Vec::with_capacity(chain.vertices.len());
-        for &vertex in &chain.vertices {
-            let local = frame.to_local(vertex);
-            let p = DVec3::new(local.x, local.y, sign * local.z);
-            let found = if search { find_near(&cells, &points, p) } else { None };
-            let node = found.unwrap_or_else(|| {
-                points.push(p);
-                let id = points.len() as u32 - 1;
-                if search {
-                    cells.entry(cell(p)).or_default().push(id);
-                }
-                id
-            });
-            nodes.push(node);
-        }
-        of_vertex.push(nodes);
+    let local = |vertex: DVec3| {
+        let p = frame.to_local(vertex);
+        DVec3::new(p.x, p.y, sign * p.z)
+    };
+    let all: Vec<DVec3> = line.chains.iter().flat_map(|c| &c.vertices).map(|&v| local(v)).collect();
+    let first = first_within(line, &all);
+    let mut points: Vec<DVec3> = Vec::with_capacity(all.len());
+    let mut node_of: Vec<u32> = Vec::with_capacity(all.len());
+    for (i, &p) in all.iter().enumerate() {
+        let node = if first[i] < i {
+            node_of[first[i]]
+        } else {
+            points.push(p);
+            points.len() as u32 - 1
+        };
+        node_of.push(node);
     }
+    let mut rest = node_of.as_slice();
+    let of_vertex = line.chains.iter().map(|c| {
+        let (nodes, tail) = rest.split_at(c.vertices.len());
+        rest = tail;
+        nodes.to_vec()
+    });
+    let of_vertex = of_vertex.collect();
     (points, of_vertex)
 }
 
-/// Side of the cells of the weld grid: wide against the weld distance, so that a point seldom needs a neighbour.
-const WELD_CELL: f64 = 64.0 * WELD_DISTANCE;
-
-fn cell(p: DVec3) -> [i64; 3] {
-    [p.x, p.y, p.z].map(|v| (v / WELD_CELL).floor() as i64)
+/// For each point the first one within the weld distance, itself at the latest.
+fn first_within(line: &Line, points: &[DVec3]) -> Vec<usize> {
+    let own: Vec<usize> = (0..points.len()).collect();
+    if line.chains.len() == 1 && line.chains[0].closed() {
+        // A simple ring does not meet itself.
+        return own;
+    }
+    let coordinates: Vec<[f64; 3]> = points.iter().map(|p| p.to_array()).collect();
+    // Validated coordinates are finite, the only thing the tree could object to.
+    let Ok(tree) = ImmutableKdTree::<f64, 3>::new_from_slice(&coordinates) else { return own };
+    own.into_par_iter()
+        .map(|i| {
+            let near =
+                tree.query(&coordinates[i]).within::<SquaredEuclidean<f64>>(WELD_DISTANCE * WELD_DISTANCE).unsorted().execute();
+            near.into_iter().map(|n| n.item as usize).min().unwrap_or(i).min(i)
+        })
+        .collect()
 }
 
-fn find_near(cells: &FxHashMap<[i64; 3], Vec<u32>>, points: &[DVec3], p: DVec3) -> Option<u32> {
-    let (lo, hi) = (cell(p - WELD_DISTANCE), cell(p + WELD_DISTANCE));
-    for x in lo[0]..=hi[0] {
-        for y in lo[1]..=hi[1] {
-            for z in lo[2]..=hi[2] {
-                if let Some(ids) = cells.get(&[x, y, z])
-                    && let Some(&id) = ids.iter().find(|&&id| points[id as usize].distance(p) <= WELD_DISTANCE)
-                {
-                    return Some(id);
+/// The segments of the line with the nodes that lie on them: (place, node), from start to end.
+struct Segments {
+    by_chain: Vec<Vec<Vec<(f64, u32)>>>,
+}
+
+impl Segments {
+    fn new(line: &Line, of_vertex: &[Vec<u32>]) -> Self {
+        let by_chain = line
+            .chains
+            .iter()
+            .zip(of_vertex)
+            .map(|(chain, nodes)| {
+                (0..chain.segment_count()).map(|i| vec![(0.0, nodes[i]), (1.0, nodes[(i + 1) % nodes.len()])]).collect()
+            })
+            .collect();
+        Self { by_chain }
+    }
+
+    /// Adds nodes where segments meet at the same height: at a crossing, or where one ends on another. Crossings at different
+    /// heights stay: there one line lies below the slope of the other.
+    fn noded(mut self, points: &mut Vec<DVec3>, line: &Line) -> Self {
+        if line.chains.len() == 1 && line.chains[0].closed() {
+            // A simple ring does not meet itself.
+            return self;
+        }
+        let flat: Vec<(usize, usize)> =
+            self.by_chain.iter().enumerate().flat_map(|(c, list)| (0..list.len()).map(move |i| (c, i))).collect();
+        let ends: Vec<[u32; 2]> = flat.iter().map(|&(c, i)| [self.by_chain[c][i][0].1, self.by_chain[c][i][1].1]).collect();
+        let plan: Vec<(DVec2, DVec2)> =
+            ends.iter().map(|e| (points[e[0] as usize].truncate(), points[e[1] as usize].truncate())).collect();
+        let mut marks: Vec<(usize, f64, u32)> = Vec::new();
+        SegmentTree::new(&plan).pairs(|i, j| {
+            let mut touching = false;
+            for (s, t) in [(i, j), (j, i)] {
+                for node in ends[s].into_iter().filter(|node| !ends[t].contains(node)) {
+                    if let Some(at) = on_segment(points[node as usize], ends[t].map(|v| points[v as usize])) {
+                        marks.push((t, at, node));
+                        touching = true;
+                    }
                 }
             }
+            let joined = ends[i].iter().any(|v| ends[j].contains(v));
+            if !touching
+                && !joined
+                && let Some((at, p)) = meeting(ends[i].map(|v| points[v as usize]), ends[j].map(|v| points[v as usize]))
+            {
+                let node = points.len() as u32;
+                points.push(p);
+                marks.extend([(i, at[0], node), (j, at[1], node)]);
+            }
+            true
+        });
+        for (s, at, node) in marks {
+            let (c, i) = flat[s];
+            self.by_chain[c][i].push((at, node));
         }
+        for list in self.by_chain.iter_mut().flatten().filter(|list| list.len() > 2) {
+            list.sort_by(|a, b| a.0.total_cmp(&b.0));
+            list.dedup_by_key(|m| m.1);
+        }
+        self
     }
-    None
 }
 
-/// The given segments between nodes, each once, with the sides on which a slope is wanted.
-fn pieces(line: &Line, design: &Design, of_vertex: &[Vec<u32>]) -> Vec<Piece> {
+/// Where point `p` lies on a segment between its ends, within the weld distance.
+fn on_segment(p: DVec3, [a, b]: [DVec3; 2]) -> Option<f64> {
+    let t = (p - a).dot(b - a) / (b - a).length_squared();
+    let inside = t > 0.0 && t < 1.0 && p.distance(a).min(p.distance(b)) > WELD_DISTANCE;
+    (inside && p.distance(a.lerp(b, t)) <= WELD_DISTANCE).then_some(t)
+}
+
+/// Where two segments cross in plan at the same height: the places on both, and the point.
+fn meeting([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> Option<([f64; 2], DVec3)> {
+    let (u, v, w) = ((b - a).truncate(), (d - c).truncate(), (c - a).truncate());
+    let det = u.perp_dot(v);
+    let at = [w.perp_dot(v) / det, w.perp_dot(u) / det];
+    // Parallel segments give no number here; they meet at ends, if at all.
+    let crosses = at.iter().all(|t| *t > 0.0 && *t < 1.0);
+    let (p, q) = (a.lerp(b, at[0]), c.lerp(d, at[1]));
+    (crosses && (p.z - q.z).abs() <= WELD_DISTANCE).then_some((at, p))
+}
+
+/// The pieces of line between nodes, each once, with the sides on which a slope is wanted.
+fn pieces(line: &Line, design: &Design, segments: &Segments) -> Vec<Piece> {
     let mut pieces: Vec<Piece> = Vec::new();
     let mut known: FxHashMap<[u32; 2], usize> = FxHashMap::default();
     for (c, chain) in line.chains.iter().enumerate() {
@@ -295,30 +380,43 @@ fn pieces(line: &Line, design: &Design, of_vertex: &[Vec<u32>]) -> Vec<Piece> {
             Side::Outside => [!interior_left, interior_left],
         };
         let interior = [chain.closed() && interior_left, chain.closed() && !interior_left];
-        for i in 0..chain.segment_count() {
-            let a = of_vertex[c][i];
-            let b = of_vertex[c][(i + 1) % of_vertex[c].len()];
-            if a == b {
-                continue;
-            }
-            let pair = [a.min(b), a.max(b)];
-            if let Some(&p) = known.get(&pair) {
-                let same = pieces[p].ends == [a, b];
-                let turned = |sides: [bool; 2]| if same { sides } else { [sides[1], sides[0]] };
-                let (here, inside) = (turned(wanted), turned(interior));
-                for s in 0..2 {
-                    pieces[p].interior[s] |= inside[s];
-                    // Outside of two polygons is outside of both; any other wish holds where one line has it.
-                    let there = pieces[p].wanted[s];
-                    pieces[p].wanted[s] = if side == Side::Outside { there && here[s] } else { there || here[s] };
+        for (i, marks) in segments.by_chain[c].iter().enumerate() {
+            for w in marks.windows(2) {
+                let ends = [w[0].1, w[1].1];
+                if ends[0] == ends[1] {
+                    continue;
                 }
-            } else {
-                known.insert(pair, pieces.len());
-                pieces.push(Piece { ends: [a, b], wanted, interior, given: Given { chain: c as u32, vertex: i as u32 } });
+                let place = |t: f64| {
+                    let vertex = i as u32 + u32::from(t >= 1.0);
+                    Given { chain: c as u32, vertex, part: if t >= 1.0 { 0.0 } else { t } }
+                };
+                let piece = Piece { ends, wanted, interior, given: [place(w[0].0), place(w[1].0)] };
+                let pair = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+                match known.get(&pair) {
+                    Some(&p) => pieces[p].join(&piece, side),
+                    None => {
+                        known.insert(pair, pieces.len());
+                        pieces.push(piece);
+                    }
+                }
             }
         }
     }
     pieces
+}
+
+impl Piece {
+    /// Takes over the wishes of another line that runs here too.
+    fn join(&mut self, other: &Self, side: Side) {
+        let same = self.ends == other.ends;
+        let turned = |sides: [bool; 2]| if same { sides } else { [sides[1], sides[0]] };
+        let (wanted, interior) = (turned(other.wanted), turned(other.interior));
+        for s in 0..2 {
+            self.interior[s] |= interior[s];
+            // Outside of two polygons is outside of both; any other wish holds where one line has it.
+            self.wanted[s] = if side == Side::Outside { self.wanted[s] && wanted[s] } else { self.wanted[s] || wanted[s] };
+        }
+    }
 }
 
 /// Twice the signed plan area of a ring, about its first vertex; positive counter-clockwise.
@@ -358,7 +456,7 @@ impl<'a> Runs<'a> {
         let [p, q] = self.at_node[node as usize][..] else { return true };
         let (p, q) = (&self.pieces[p as usize], &self.pieces[q as usize]);
         let through = p.ends[1] == q.ends[0] || p.ends[0] == q.ends[1];
-        !through || p.given.chain != q.given.chain || p.wanted != q.wanted || p.interior != q.interior
+        !through || p.given[0].chain != q.given[0].chain || p.wanted != q.wanted || p.interior != q.interior
     }
 
     fn all(&self, points: &[DVec3]) -> Vec<Run> {
@@ -381,10 +479,9 @@ impl<'a> Runs<'a> {
     /// Follows pieces forward from piece `p` up to a fixed node or back to the start.
     fn walk(&self, p: usize, done: &mut [bool]) -> Run {
         let piece = &self.pieces[p];
-        let after = |g: Given| Given { vertex: g.vertex + 1, ..g };
         let mut run = Run {
             nodes: vec![piece.ends[0], piece.ends[1]],
-            given: vec![piece.given, after(piece.given)],
+            given: piece.given.to_vec(),
             wanted: piece.wanted,
             interior: piece.interior,
         };
@@ -399,7 +496,7 @@ impl<'a> Runs<'a> {
             done[next as usize] = true;
             at = self.pieces[next as usize].ends[1];
             run.nodes.push(at);
-            run.given.push(after(self.pieces[next as usize].given));
+            run.given.push(self.pieces[next as usize].given[1]);
         }
         run
     }
@@ -421,8 +518,8 @@ impl<'a> Runs<'a> {
         let part = |from: usize, to: usize| {
             let count = (to + ring.len() - from - 1) % ring.len() + 1;
             let at: Vec<usize> = (0..=count).map(|i| (from + i) % ring.len()).collect();
-            // The last vertex is the one after the one before it: on a ring it may be the first again.
-            let last = Given { vertex: run.given[at[count - 1]].vertex + 1, ..run.given[0] };
+            // Where the first vertex of the walk comes last, its place counts on past the last vertex.
+            let last = run.given[at[count - 1] + 1];
             Run {
                 nodes: at.iter().map(|&i| ring[i]).collect(),
                 given: at[..count].iter().map(|&i| run.given[i]).chain([last]).collect(),

@@ -270,11 +270,12 @@ impl Stations {
         stations
     }
 
-    /// Station of a given vertex; of a ring's first vertex after its last one, the ring's length.
+    /// Station of a place on the line; of a ring's first vertex after its last one, the ring's length.
     fn at(&self, given: Given) -> f64 {
         let chain = &self.by_chain[given.chain as usize];
         let vertex = given.vertex as usize;
-        if vertex < chain.len() { chain[vertex] } else { chain[vertex % (chain.len() - 1)] }
+        let at = chain[vertex];
+        if given.part > 0.0 { at + (chain[vertex + 1] - at) * given.part } else { at }
     }
 
     /// Station of the place `s` along edge `e`.

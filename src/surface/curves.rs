@@ -6,7 +6,6 @@ use crate::model::{CurveKind, Design, Line, LineFeature, Sheet as SheetKind};
 use crate::slope::emit::Trace;
 use crate::slope::levels::Levels;
 use crate::slope::network::Network;
-use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 
 /// All line work of the surface, in a fixed order.
@@ -61,30 +60,33 @@ pub(crate) fn lines(
 
 /// Chains segments to paths that end where not exactly two segments meet; closed paths repeat their first vertex.
 fn chained(segments: &[[u32; 2]]) -> Vec<Vec<u32>> {
-    let mut at: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
-    for (i, s) in segments.iter().enumerate() {
-        for v in s {
-            at.entry(*v).or_default().push(i as u32);
-        }
-    }
+    // Segments by vertex: (vertex, segment), sorted.
+    let mut by_vertex: Vec<(u32, u32)> = segments.iter().enumerate().flat_map(|(i, s)| s.map(|v| (v, i as u32))).collect();
+    by_vertex.sort_unstable();
+    let at = |v: u32| {
+        let from = by_vertex.partition_point(|e| e.0 < v);
+        let count = by_vertex[from..].iter().take_while(|e| e.0 == v).count();
+        &by_vertex[from..from + count]
+    };
     let mut used = vec![false; segments.len()];
-    let mut paths = Vec::new();
     let walk = |from: u32, first: usize, used: &mut Vec<bool>| {
         let mut path = vec![from];
+        let mut last = from;
         let mut next = Some(first);
         while let Some(i) = next {
             used[i] = true;
             let [a, b] = segments[i];
-            let v = if path[path.len() - 1] == a { b } else { a };
-            path.push(v);
-            let here = &at[&v];
-            next = if here.len() == 2 { here.iter().map(|&j| j as usize).find(|&j| !used[j]) } else { None };
+            last = if last == a { b } else { a };
+            path.push(last);
+            let here = at(last);
+            next = if here.len() == 2 { here.iter().map(|e| e.1 as usize).find(|&j| !used[j]) } else { None };
         }
         path
     };
+    let mut paths = Vec::new();
     for i in 0..segments.len() {
         for v in segments[i] {
-            if !used[i] && at[&v].len() != 2 {
+            if !used[i] && at(v).len() != 2 {
                 paths.push(walk(v, i, &mut used));
             }
         }

@@ -225,8 +225,12 @@ pub fn build(line: &Line, design: &Design, reference: Option<f64>, watch: &dyn W
     go_on("check")?;
     let body = Body::new(&network, design, &slopes, &flats, &buried::entries(&sheet, &solved.closure, &solved.arcs));
     let edges = HalfEdges::new(body.tin.vertices.len(), &body.tin.triangles);
-    let certificate = certificate::measure(line, design, &sheet, &body, &edges, &solved.closure)?;
-    let lines = curves::lines(line, design, &network, &levels, &body, &edges);
+    let (certificate, lines) = rayon::join(
+        || certificate::measure(line, design, &sheet, &body, &edges, &solved.closure),
+        || curves::lines(line, design, &network, &levels, &body, &edges),
+    );
+    let certificate = certificate?;
+    go_on("volumes")?;
     let areas = body.areas();
     let volumes = body.volumes(line, design, reference, &ends, network.simplified_max, cut.chord);
     let mut notes = Vec::new();
