@@ -187,7 +187,7 @@ fn inside_of_stars_has_no_hole() {
         let n = 5 + random.below(30);
         let ring = star(random, n, 30.0, 2.0, 0.1, k);
         let sheet = [Sheet::Falling, Sheet::Rising][random.below(2)];
-        let (low, high) = line(&[ring.clone()]).elevation_range();
+        let (low, high) = line(std::slice::from_ref(&ring)).elevation_range();
         let depth = random.between(0.5, 8.0);
         let end = if sheet == Sheet::Falling { low - depth } else { high + depth };
         let inside = Design { sheet, side_of_rings: Side::Inside, tolerance: 0.01, ..design(k, Extent::Elevation(end)) };
@@ -218,7 +218,7 @@ fn outside_of_stars_is_joined_to_the_platform() {
         let k = random.between(0.3, 2.0);
         let n = 4 + random.below(60);
         let ring = star(random, n, 30.0, 3.0, 0.1, k);
-        let (low, _) = line(&[ring.clone()]).elevation_range();
+        let (low, _) = line(std::slice::from_ref(&ring)).elevation_range();
         let end = low - random.between(0.5, 20.0);
         let outside = Design { tolerance: 0.01, ..design(k, Extent::Elevation(end)) };
         let job = Job { name: format!("seed {seed}: {outside:?}"), lines: vec![ring], design: outside };
@@ -249,7 +249,7 @@ fn thousands_of_vertices() {
     for (n, noise) in [(1_000, 0.0), (1_000, 0.02), (10_000, 0.0), (10_000, 0.02)] {
         let k = 0.5;
         let ring = star(&mut Random::new(n as u64), n, 300.0, 8.0, noise, k);
-        let (low, _) = line(&[ring.clone()]).elevation_range();
+        let (low, _) = line(std::slice::from_ref(&ring)).elevation_range();
         let outside = Design { tolerance: 0.01, ..design(k, Extent::Elevation(low - 10.0)) };
         let job = Job { name: format!("{n} vertices, noise {noise}"), lines: vec![ring], design: outside };
         let surface = job.build();

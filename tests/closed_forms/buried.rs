@@ -32,7 +32,7 @@ impl Hairpin {
 /// Nothing is buried as long as the ends keep `Δz < k·d`.
 #[test]
 fn hairpin_below_the_limit() {
-    for slack in [1.0] {
+    for slack in [1.0, 0.9] {
         let (d, g, c, k) = (10.0, 0.1, 0.2, 0.5);
         let hairpin = Hairpin { l: ((1.0 - slack * 0.5) * k * d - c * d) / (2.0 * g), d, g, c, k };
         let given = line(&[open(&hairpin.points())]);
@@ -83,10 +83,10 @@ fn the_free_slope_is_the_limit() {
 /// by `√(k² − g²)` a unit aside; along the lower line at the crossing angle 90°: `c·x = h − |x|·√(k² − g²)`.
 #[test]
 fn crossing_roads() {
-    let (a, b, h, k) = (50.0, 40.0, 6.0, 0.5);
+    let (a, b, h, k) = (50.0, 40.0, 6.0, 0.5_f64);
     for (g, c) in [(0.0, 0.3), (0.25, -0.1)] {
         let given = line(&[open(&[[-a, 0.0, -a * c], [a, 0.0, a * c]]), open(&[[0.0, -b, h - b * g], [0.0, b, h + b * g]])]);
-        let side = ((k - g) * (k + g) as f64).sqrt();
+        let side = ((k - g) * (k + g)).sqrt();
         let (from, to) = (-h / (side - c), h / (side + c));
         on_both_sheets(&given, &design(k, Extent::Elevation(-30.0)), |surface| {
             let [stretch] = &surface.buried[..] else { panic!("{g} {c}: {:?}", surface.buried) };

@@ -75,7 +75,7 @@ fn sloping_segment() {
 #[test]
 fn crest() {
     let (a, b, g1, g2, top, k, reach) = (30.0, 40.0, 0.3, 0.2, 20.0, 0.5, 6.0);
-    let (phi1, phi2) = ((g1 / k as f64).asin(), (g2 / k as f64).asin());
+    let (phi1, phi2) = (f64::asin(g1 / k), f64::asin(g2 / k));
     let given = line(&[open(&[[-a, 0.0, top - a * g1], [0.0, 0.0, top], [b, 0.0, top - b * g2]])]);
     let wanted = design(k, Extent::Distance(reach));
     on_both_sheets(&given, &wanted, |surface| {
