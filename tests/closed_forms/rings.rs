@@ -155,19 +155,35 @@ fn cone() {
     }
 }
 
-/// A plane at half the height cuts the pad: above it the upper part, below it the lower part of the slopes, between the plan
-/// area at the foot and those higher up: `∫ (A(h) − A(t)) dt` from the middle to the foot.
+/// A plane between foot and top, on no level: above it stands the upper part of the pad, below it lie the slopes outside, up to
+/// `∫ (A(h) − A(t)) dt` over depths `t` from the plane to the foot.
 #[test]
 fn cut_and_fill_against_a_plane_in_between() {
-    let (l, w, h, k) = (30.0, 20.0, 6.0, 0.5);
+    let (l, w, h, k, plane) = (30.0, 20.0, 6.0, 0.5, 2.3);
     let (n, a, p) = (1.0 / k, l * w, 2.0 * (l + w));
-    let wanted = design(k, Extent::Elevation(0.0));
-    let surface = surface::build(&line(&[rectangle([0.0, 0.0, h], l, w)]), &wanted, Some(h / 2.0), &()).expect("a pad");
+    let given = line(&[rectangle([0.0, 0.0, h], l, w)]);
+    let surface = surface::build(&given, &design(k, Extent::Elevation(0.0)), Some(plane), &()).expect("a pad");
+    assert!(surface.levels.iter().all(|z| (z - plane).abs() > 0.1), "{:?}", surface.levels);
     let v = &surface.volumes;
-    not_above(v.fill, parallel_volume(a, p, n, h / 2.0), v.error_bound, "fill");
-    let lower = parallel_volume(a, p, n, h) - parallel_volume(a, p, n, h / 2.0);
-    let cut = parallel_area(a, p, n * h) * h / 2.0 - lower;
-    assert!((v.cut - cut).abs() <= v.error_bound + n * v.error_bound * h / 2.0, "cut {} for {cut}", v.cut);
-    close(v.fill - v.cut, net_above(&surface, h / 2.0), EXACT, "net");
+    not_above(v.fill, parallel_volume(a, p, n, h - plane), v.error_bound, "fill");
+    let cut = parallel_area(a, p, n * h) * plane - (parallel_volume(a, p, n, h) - parallel_volume(a, p, n, h - plane));
+    // Chords: short of the plan area at the foot as well.
+    assert!((v.cut - cut).abs() <= v.error_bound * (1.0 + n * plane), "cut {} for {cut}", v.cut);
+    close(v.fill - v.cut, net_above(&surface, plane), EXACT, "net");
+    close(v.fill_max, h - plane, EXACT, "greatest fill");
+    close(v.cut_max, plane, EXACT, "greatest cut");
     close(plan_area(&surface, Part::Platform), a, EXACT, "platform");
+}
+
+/// The same without cones: a pit whose slopes a plane cuts, at a depth on no level. Below it lies what a pit from there would
+/// dig, above it the rest.
+#[test]
+fn a_plane_through_a_pit() {
+    let (l, w, d, k, depth) = (60.0, 40.0, 6.0, 0.5, 2.37);
+    let n = 1.0 / k;
+    let wanted = Design { side_of_rings: Side::Inside, ..design(k, Extent::Elevation(-d)) };
+    let surface = surface::build(&line(&[rectangle([0.0, 0.0, 0.0], l, w)]), &wanted, Some(-depth), &()).expect("a pit");
+    let cut = pit_volume(l - 2.0 * n * depth, w - 2.0 * n * depth, n, d - depth);
+    close(surface.volumes.cut, cut, EXACT, "below the plane");
+    close(surface.volumes.fill, l * w * depth - (pit_volume(l, w, n, d) - cut), EXACT, "above the plane");
 }
