@@ -4,7 +4,7 @@ mod common;
 
 use common::build::{design, line};
 use common::lines::{Case, Random, case, star};
-use common::measure::{area, curves, enclosed, net_above, open_edges, triangles};
+use common::measure::{area, curves, enclosed, fill_above, net_above, open_edges, triangles};
 use common::oracle::{self, Polyline};
 use slopegen::model::{CurveKind, Design, Extent, Line, Part, Sheet, Side};
 use slopegen::surface::{self, Surface};
@@ -20,6 +20,8 @@ struct Job {
     name: String,
     lines: Vec<Polyline>,
     design: Design,
+    /// Plane of the volumes.
+    reference: Option<f64>,
 }
 
 impl Job {
@@ -33,7 +35,7 @@ impl Job {
 
     #[track_caller]
     fn build(&self) -> Surface {
-        surface::build(&line(&self.lines), &self.design, None, &()).unwrap_or_else(|e| panic!("{}: {e}", self.name))
+        surface::build(&line(&self.lines), &self.design, self.reference, &()).unwrap_or_else(|e| panic!("{}: {e}", self.name))
     }
 }
 
@@ -46,7 +48,10 @@ fn job(seed: u64, size: usize, tolerance: f64) -> Job {
     let side = if lines.iter().any(|l| l.closed) { Side::Both } else { one_side };
     let extent = extent(random, &line(&lines), k, sheet);
     let design = Design { sheet, side_of_lines: side, side_of_rings: side, tolerance, ..design(k, extent) };
-    Job { name: format!("{name}, size {size}: {design:?}"), lines, design }
+    // Half of the planes pass through the line.
+    let (low, high) = line(&lines).elevation_range();
+    let reference = (random.below(2) == 0).then(|| random.between(low, high + 1e-3));
+    Job { name: format!("{name}, size {size}: {design:?}"), lines, design, reference }
 }
 
 /// Up to 12 beyond the line, as an elevation, a height or a distance.
@@ -122,7 +127,9 @@ fn sums(job: &Job, surface: &Surface) {
     same(enclosed(surface, &boundary), plan, "area inside the boundary");
     let (cut, fill) = (surface.volumes.cut, surface.volumes.fill);
     assert!(cut >= 0.0 && fill >= 0.0, "{name}: cut {cut}, fill {fill}");
-    same(fill - cut, net_above(surface, surface.volumes.reference), "fill less cut");
+    let plane = surface.volumes.reference;
+    same(fill - cut, net_above(surface, plane), "fill less cut");
+    same(fill, fill_above(surface, plane), "fill");
     // In plan a slope is smaller by cos α, but for chords of cones.
     let slopes: f64 = triangles(surface).filter(|t| t.1 != Part::Platform).map(|t| area(t.0)).sum();
     let expected = slopes * 1.0_f64.hypot(job.k());
@@ -191,7 +198,7 @@ fn inside_of_stars_has_no_hole() {
         let depth = random.between(0.5, 8.0);
         let end = if sheet == Sheet::Falling { low - depth } else { high + depth };
         let inside = Design { sheet, side_of_rings: Side::Inside, tolerance: 0.01, ..design(k, Extent::Elevation(end)) };
-        let job = Job { name: format!("seed {seed}: {inside:?}"), lines: vec![ring], design: inside };
+        let job = Job { name: format!("seed {seed}: {inside:?}"), lines: vec![ring], design: inside, reference: None };
         let surface = job.build();
         slopes_and_heights(&job, &surface);
         // The boundary is the ring itself: simplified within a third of the tolerance in height, that much/k in plan.
@@ -221,7 +228,7 @@ fn outside_of_stars_is_joined_to_the_platform() {
         let (low, _) = line(std::slice::from_ref(&ring)).elevation_range();
         let end = low - random.between(0.5, 20.0);
         let outside = Design { tolerance: 0.01, ..design(k, Extent::Elevation(end)) };
-        let job = Job { name: format!("seed {seed}: {outside:?}"), lines: vec![ring], design: outside };
+        let job = Job { name: format!("seed {seed}: {outside:?}"), lines: vec![ring], design: outside, reference: Some(0.1) };
         let surface = job.build();
         examine(&job, &surface);
         let (area_of_ring, length) = measure_ring(&job.lines[0]);
@@ -251,7 +258,7 @@ fn thousands_of_vertices() {
         let ring = star(&mut Random::new(n as u64), n, 300.0, 8.0, noise, k);
         let (low, _) = line(std::slice::from_ref(&ring)).elevation_range();
         let outside = Design { tolerance: 0.01, ..design(k, Extent::Elevation(low - 10.0)) };
-        let job = Job { name: format!("{n} vertices, noise {noise}"), lines: vec![ring], design: outside };
+        let job = Job { name: format!("{n} vertices, noise {noise}"), lines: vec![ring], design: outside, reference: Some(0.1) };
         let surface = job.build();
         examine(&job, &surface);
         // Every given vertex is on the hinge, where it was or within the share of the tolerance for simplifying.

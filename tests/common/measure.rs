@@ -25,6 +25,26 @@ pub(crate) fn net_above(surface: &Surface, plane: f64) -> f64 {
     triangles(surface).map(|(t, _)| area(t) * ((t[0].z + t[1].z + t[2].z) / 3.0 - plane)).sum()
 }
 
+/// Volume above `plane`: every triangle is cut by it, corner by corner, and what is above summed over a fan.
+pub(crate) fn fill_above(surface: &Surface, plane: f64) -> f64 {
+    let above = |corners: [DVec3; 3]| {
+        let mut kept: Vec<DVec3> = Vec::new();
+        for (i, &p) in corners.iter().enumerate() {
+            let q = corners[(i + 1) % 3];
+            let (h, g) = (p.z - plane, q.z - plane);
+            if h > 0.0 {
+                kept.push(p);
+            }
+            if (h > 0.0) != (g > 0.0) {
+                kept.push(p + (q - p) * (h / (h - g)));
+            }
+        }
+        let fan = |w: &[DVec3]| area([kept[0], w[0], w[1]]) * ((kept[0].z + w[0].z + w[1].z) / 3.0 - plane);
+        if kept.len() < 3 { 0.0 } else { kept[1..].windows(2).map(fan).sum() }
+    };
+    triangles(surface).map(|t| above(t.0)).sum()
+}
+
 /// Height of the mesh over a plan point in the local frame; `None` beside it.
 pub(crate) fn height(surface: &Surface, x: f64, y: f64) -> Option<f64> {
     let p = DVec3::new(x, y, 0.0);
