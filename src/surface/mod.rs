@@ -208,6 +208,7 @@ pub fn build(line: &Line, design: &Design, reference: Option<f64>, watch: &dyn W
     }
     let ends = Ends::new(&network, line, design)?;
     let levels = ends.levels(design)?;
+    go_on("index")?;
     let fans = Fans::new(&network, k);
     let index = trim::index_of(&network, k);
     let sheet = Sheet::new(&network, &fans, &index, k, ends.closure);
