@@ -19,7 +19,8 @@ pub struct PlaneVolume {
 /// Integral of the positive part of a linear function over a triangle of plan area `area`, given its corner values.
 ///
 /// One sign: `area × mean`. One corner positive (`a > 0 ≥ b, c`): a similar triangle with sides in the ratios `a/(a − b)` and
-/// `a/(a − c)`, of mean height `a/3`. Two corners positive: the whole plus the opposite of the third corner's share.
+/// `a/(a − c)`, of mean height `a/3`. Two corners positive: the whole plus the opposite of the third corner's share, which
+/// rounding can make a hair less than nothing.
 fn positive_part(area: f64, h: [f64; 3]) -> f64 {
     let corner = |a: f64, b: f64, c: f64| area * a / 3.0 * (a / (a - b)) * (a / (a - c));
     let whole = area * (h[0] + h[1] + h[2]) / 3.0;
@@ -29,9 +30,9 @@ fn positive_part(area: f64, h: [f64; 3]) -> f64 {
         (true, false, false) => corner(h[0], h[1], h[2]),
         (false, true, false) => corner(h[1], h[2], h[0]),
         (false, false, true) => corner(h[2], h[0], h[1]),
-        (false, true, true) => whole + corner(-h[0], -h[1], -h[2]),
-        (true, false, true) => whole + corner(-h[1], -h[2], -h[0]),
-        (true, true, false) => whole + corner(-h[2], -h[0], -h[1]),
+        (false, true, true) => (whole + corner(-h[0], -h[1], -h[2])).max(0.0),
+        (true, false, true) => (whole + corner(-h[1], -h[2], -h[0])).max(0.0),
+        (true, true, false) => (whole + corner(-h[2], -h[0], -h[1])).max(0.0),
     }
 }
 
@@ -63,6 +64,19 @@ pub fn above_plane(triangles: impl Iterator<Item = [DVec3; 3]>, elevation: f64) 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Two corners above by rounding, one below by more: nothing is filled.
+    #[test]
+    fn never_negative() {
+        for tiny in [1e-16, 3e-17, 1e-300] {
+            for low in [-1.0, -0.3, -7e-3] {
+                for h in [[tiny, 2.0 * tiny, low], [low, tiny, tiny], [tiny, low, 3.0 * tiny]] {
+                    assert!(positive_part(0.7, h) >= 0.0, "{h:?}");
+                    assert!(positive_part(0.7, h.map(|v| -v)) >= 0.0, "{h:?}");
+                }
+            }
+        }
+    }
 
     /// Over the unit triangle, `h = a − x` has its positive part on `x < a`: ∫₀ᵃ (a − x)(1 − x) dx = a²/2 − a³/6.
     #[test]

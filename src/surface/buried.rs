@@ -1,9 +1,10 @@
 //! Stretches of the line that lie below the slope of another part, in the words of the line: chains and stations.
 
-use crate::kernel::orientation::turn;
 use crate::model::{Design, Line, Note, Sheet as SheetKind};
 use crate::sheet::Segment;
+use crate::slope::arcs::Arcs;
 use crate::slope::closure::Closure;
+use crate::slope::emit::EdgePoint;
 use crate::slope::network::{Edge, Given, Network, twin};
 use crate::slope::trim::Sheet;
 use glam::{DVec2, DVec3};
@@ -41,6 +42,9 @@ pub(crate) struct Found {
 /// Points looked at along a stretch, per edge and at the ends.
 const SAMPLES: usize = 32;
 
+/// Steps of a search between two samples; each leaves two thirds.
+const NARROWINGS: usize = 60;
+
 /// Stretches shorter than this (length units) are not reported: they are the two sides of one touching point.
 const SHORTEST: f64 = 1e-6;
 
@@ -57,6 +61,19 @@ struct Part {
     /// Whether another part lies above, or the end of the slope.
     covered: bool,
     stations: [f64; 2],
+}
+
+/// Places on each edge where it goes below another part's slope or comes out, in numbers of the emission.
+pub(crate) fn entries(sheet: &Sheet, closure: &Closure, arcs: &Arcs) -> Vec<Vec<EdgePoint>> {
+    let mut entries = vec![Vec::new(); sheet.network.edges.len()];
+    for (f, knots) in closure.knots.iter().enumerate().take(2 * entries.len()) {
+        let length = sheet.facet(f as u32).tau_max;
+        for knot in knots.iter().filter(|k| (k.left == twin(f as u32)) != (k.right == twin(f as u32))) {
+            let s = if f % 2 == 0 { knot.tau } else { length - knot.tau };
+            entries[f / 2].push(EdgePoint { s, id: arcs.vertex(knot.vertex), given: None });
+        }
+    }
+    entries
 }
 
 /// Finds the covered stretches of a closed sheet.
@@ -101,7 +118,6 @@ fn on(sheet: &Sheet, edge: &Edge, s: f64) -> DVec3 {
 
 fn describe(sheet: &Sheet, stations: &Stations, chain: usize, [from, to]: [f64; 2], group: &[(usize, Part)]) -> Buried {
     let mut deepest = (f64::NEG_INFINITY, DVec3::ZERO, 0);
-    let mut samples = Vec::new();
     for (_, part) in group {
         let edge = &sheet.network.edges[part.edge];
         let depth = |s: f64| {
@@ -114,14 +130,13 @@ fn describe(sheet: &Sheet, stations: &Stations, chain: usize, [from, to]: [f64; 
         for i in 0..=SAMPLES {
             let s = part.s[0] + step * i as f64;
             let here = depth(s);
-            samples.push(here.1);
             if here.0 > best.0 {
                 best = (here.0, s);
             }
         }
         // The greatest depth lies between the neighbours of the best sample, or at it.
         let (mut lo, mut hi) = ((best.1 - step).max(part.s[0]), (best.1 + step).min(part.s[1]));
-        for _ in 0..60 {
+        for _ in 0..NARROWINGS {
             let (m, n) = (lo + (hi - lo) / 3.0, hi - (hi - lo) / 3.0);
             if depth(m).0 < depth(n).0 { lo = m } else { hi = n }
         }
@@ -142,49 +157,76 @@ fn describe(sheet: &Sheet, stations: &Stations, chain: usize, [from, to]: [f64; 
         at: sheet.network.world(place).truncate(),
         by_chain: sheet.network.edges[by as usize].given[0].chain as usize,
         by_station: stations.of(by as usize, foot),
-        free_slope: if crossed(sheet, group) { None } else { free_slope(sheet, &samples) },
+        free_slope: free_slope(sheet, group),
     }
 }
 
-/// Whether another edge crosses the stretch in plan: then it is covered there whatever the slope.
-fn crossed(sheet: &Sheet, group: &[(usize, Part)]) -> bool {
-    let ends = |edge: &Edge| [edge.a, edge.b].map(|v| sheet.network.nodes[v as usize].truncate());
-    group.iter().any(|(_, part)| {
-        let edge = &sheet.network.edges[part.edge];
-        let stretch = part.s.map(|s| on(sheet, edge, s).truncate());
-        let apart = |[a, b]: [DVec2; 2], [c, d]: [DVec2; 2]| turn(a, b, c) == turn(a, b, d);
-        sheet.network.edges.iter().any(|other| {
-            let joined = [other.a, other.b].iter().any(|v| [edge.a, edge.b].contains(v));
-            !joined && !apart(stretch, ends(other)) && !apart(ends(other), stretch)
-        })
+/// The least slope at which no other part covers the group: the greatest `(z_q − z_p)/|p − q|` over points `p` of it and `q` of
+/// the line; `None` where a higher part passes over it. Greatest at a sample, then between its neighbours.
+fn free_slope(sheet: &Sheet, group: &[(usize, Part)]) -> Option<f64> {
+    let mut worst = (sheet.k, None);
+    for (_, part) in group {
+        if passed_over(sheet, part) {
+            return None;
+        }
+        let step = (part.s[1] - part.s[0]) / SAMPLES as f64;
+        for i in 0..=SAMPLES {
+            let s = part.s[0] + step * i as f64;
+            let slope = needed(sheet, on(sheet, &sheet.network.edges[part.edge], s), worst.0)?;
+            if slope > worst.0 {
+                worst = (slope, Some((part.edge, [(s - step).max(part.s[0]), (s + step).min(part.s[1])])));
+            }
+        }
+    }
+    let (mut slope, Some((edge, [mut lo, mut hi]))) = worst else { return Some(worst.0) };
+    for _ in 0..NARROWINGS {
+        let at = |s: f64| needed(sheet, on(sheet, &sheet.network.edges[edge], s), sheet.k);
+        let (m, n) = (lo + (hi - lo) / 3.0, hi - (hi - lo) / 3.0);
+        let (left, right) = (at(m)?, at(n)?);
+        slope = slope.max(left).max(right);
+        if left < right { lo = m } else { hi = n }
+    }
+    Some(slope)
+}
+
+/// Whether a higher edge crosses a piece in plan.
+fn passed_over(sheet: &Sheet, part: &Part) -> bool {
+    let nodes = &sheet.network.nodes;
+    let own = &sheet.network.edges[part.edge];
+    let [a, b] = part.s.map(|s| on(sheet, own, s));
+    let u = (b - a).truncate();
+    sheet.network.edges.iter().enumerate().any(|(e, edge)| {
+        let (c, d) = (nodes[edge.a as usize], nodes[edge.b as usize]);
+        let (v, w) = ((d - c).truncate(), (c - a).truncate());
+        let across = u.perp_dot(v);
+        let (t, r) = (w.perp_dot(v) / across, w.perp_dot(u) / across);
+        let meets = across != 0.0 && (0.0..=1.0).contains(&t) && (0.0..=1.0).contains(&r);
+        e != part.edge && meets && c.lerp(d, r).z - a.lerp(b, t).z > TOUCHING
     })
 }
 
-/// The least slope at which no other part covers the samples: the greatest `(z_q − z_p)/|p − q|` over points `q` of the line,
-/// found by Dinkelbach's iteration: the `q` that is highest at the present slope gives the next one.
-fn free_slope(sheet: &Sheet, samples: &[DVec3]) -> Option<f64> {
+/// The least slope, from `slope` on, at which nothing covers `p`, by Dinkelbach's iteration: the point of the line that is
+/// highest at the present slope gives the next one. `None` beyond the steepest that counts.
+fn needed(sheet: &Sheet, p: DVec3, mut slope: f64) -> Option<f64> {
     const STEPS: usize = 60;
-    let mut slope = sheet.k;
-    for p in samples {
-        for _ in 0..STEPS {
-            let mut best = (0.0, 0.0);
-            for edge in &sheet.network.edges {
-                let (a, b) = (sheet.network.nodes[edge.a as usize], sheet.network.nodes[edge.b as usize]);
-                let segment = Segment::new(a, b, slope);
-                let foot = segment.point(segment.foot(p.truncate()));
-                let distance = foot.truncate().distance(p.truncate());
-                let rise = foot.z - p.z;
-                if rise - slope * distance > best.0 {
-                    best = (rise - slope * distance, rise / distance);
-                }
+    for _ in 0..STEPS {
+        let mut best = (0.0, 0.0);
+        for edge in &sheet.network.edges {
+            let (a, b) = (sheet.network.nodes[edge.a as usize], sheet.network.nodes[edge.b as usize]);
+            let segment = Segment::new(a, b, slope);
+            let foot = segment.point(segment.foot(p.truncate()));
+            let distance = foot.truncate().distance(p.truncate());
+            let rise = foot.z - p.z;
+            if rise - slope * distance > best.0 {
+                best = (rise - slope * distance, rise / distance);
             }
-            if best.0 <= 1e-12 * (1.0 + p.z.abs()) {
-                break;
-            }
-            slope = best.1;
-            if slope >= STEEPEST {
-                return None;
-            }
+        }
+        if best.0 <= 1e-12 * (1.0 + p.z.abs()) {
+            break;
+        }
+        slope = best.1;
+        if slope >= STEEPEST {
+            return None;
         }
     }
     Some(slope)

@@ -41,7 +41,7 @@ pub(crate) fn lines(
     let crease = if design.sheet == SheetKind::Falling { CurveKind::Valley } else { CurveKind::Ridge };
     push(crease, None, None, &creases);
     let mut by_chain: Vec<Vec<[u32; 2]>> = vec![Vec::new(); line.chains.len()];
-    for (edge, points) in network.edges.iter().zip(&body.edge_points) {
+    for (edge, points) in network.edges.iter().zip(&body.hinge_points) {
         for w in points.windows(2) {
             let ends = [w[0].id.min(w[1].id), w[0].id.max(w[1].id)];
             if hinge.binary_search(&ends).is_ok() {

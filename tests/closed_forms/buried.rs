@@ -1,0 +1,108 @@
+//! Lines that lie below the slope of another part: stretches, depths and the slope that would free them.
+
+use crate::common::build::{design, line, on_both_sheets, open};
+use crate::common::measure::{close, height, length};
+use slopegen::model::{CurveKind, Extent};
+
+/// Places on the line: the engine finds entries by crossing straight facets.
+const EXACT: f64 = 1e-9;
+
+/// Two legs `d` apart, climbing by `g` there and back, joined by a climb of `c`. At `x` along the lower leg the upper one lies
+/// `c·d + 2g(l − x)` higher.
+struct Hairpin {
+    l: f64,
+    d: f64,
+    g: f64,
+    c: f64,
+    k: f64,
+}
+
+impl Hairpin {
+    fn points(&self) -> [[f64; 3]; 4] {
+        let Self { l, d, g, c, .. } = *self;
+        [[0.0, 0.0, 0.0], [l, 0.0, g * l], [l, d, g * l + c * d], [0.0, d, 2.0 * g * l + c * d]]
+    }
+
+    /// How much higher the line ends than it starts, `d` away.
+    fn rise(&self) -> f64 {
+        2.0 * self.g * self.l + self.c * self.d
+    }
+}
+
+/// Nothing is buried as long as the ends keep `Δz < k·d`.
+#[test]
+fn hairpin_below_the_limit() {
+    for slack in [1.0, 0.9] {
+        let (d, g, c, k) = (10.0, 0.1, 0.2, 0.5);
+        let hairpin = Hairpin { l: ((1.0 - slack * 0.5) * k * d - c * d) / (2.0 * g), d, g, c, k };
+        let given = line(&[open(&hairpin.points())]);
+        on_both_sheets(&given, &design(k, Extent::Elevation(-3.0)), |surface| {
+            assert!(surface.buried.is_empty(), "slack {slack}: {:?}", surface.buried);
+        });
+    }
+}
+
+/// Above the limit: from the start of the line, where it is `Δz − k·d` deep, to where the plane of the upper leg meets the lower
+/// one: `c·d + 2g(l − x) = d·√(k² − g²)`. Its foot, `d·g/√(k² − g²)` up-grade, must still be on the leg. The slope that frees it is
+/// that between the two ends, `Δz/d`: any other pair is further apart or less steep.
+#[test]
+fn hairpin_above_the_limit() {
+    let hairpin = Hairpin { l: 30.0, d: 10.0, g: 0.1, c: 0.2, k: 0.5 };
+    let Hairpin { l, d, g, c, k } = hairpin;
+    let side = ((k - g) * (k + g)).sqrt();
+    let to = l - d * (side - c) / (2.0 * g);
+    assert!(to > d * g / side, "the entry lies on the plane of the upper leg");
+    on_both_sheets(&line(&[open(&hairpin.points())]), &design(k, Extent::Elevation(-3.0)), |surface| {
+        let [stretch] = &surface.buried[..] else { panic!("{:?}", surface.buried) };
+        assert_eq!((stretch.chain, stretch.by_chain), (0, 0));
+        assert!(stretch.from.abs() < EXACT, "{stretch:?}");
+        close(stretch.to, to, EXACT, "entry");
+        // The deepest place is searched on samples: exact where it is an end.
+        close(stretch.depth, hairpin.rise() - k * d, EXACT, "depth");
+        close(stretch.by_station, 2.0 * l + d, EXACT, "foot of the cover");
+        close(stretch.free_slope.expect("apart in plan"), hairpin.rise() / d, EXACT, "free slope");
+        // There the surface is the upper leg's: a plane that the lower leg does not touch.
+        let x = 0.5 * to + 0.5 * d * g / side;
+        close(height(surface, x, 0.0).expect("inside"), hairpin.rise() - g * x - d * side, EXACT, "cover");
+    });
+}
+
+/// The free slope does free it: at a slope a little steeper nothing is buried, at one a little flatter something is.
+#[test]
+fn the_free_slope_is_the_limit() {
+    let hairpin = Hairpin { l: 30.0, d: 10.0, g: 0.1, c: 0.2, k: 0.5 };
+    let limit = hairpin.rise() / hairpin.d;
+    for (k, count) in [(limit * (1.0 + 1e-6), 0), (limit * (1.0 - 1e-6), 1)] {
+        on_both_sheets(&line(&[open(&hairpin.points())]), &design(k, Extent::Elevation(-3.0)), |surface| {
+            assert_eq!(surface.buried.len(), count, "slope {k}: {:?}", surface.buried);
+        });
+    }
+}
+
+/// Roads that cross in plan, the upper one `h` higher with gradient `g`, the lower one with gradient `c`. The upper one's planes fall
+/// by `√(k² − g²)` a unit aside; along the lower line at the crossing angle 90°: `c·x = h − |x|·√(k² − g²)`.
+#[test]
+fn crossing_roads() {
+    let (a, b, h, k) = (50.0, 40.0, 6.0, 0.5_f64);
+    for (g, c) in [(0.0, 0.3), (0.25, -0.1)] {
+        let given = line(&[open(&[[-a, 0.0, -a * c], [a, 0.0, a * c]]), open(&[[0.0, -b, h - b * g], [0.0, b, h + b * g]])]);
+        let side = ((k - g) * (k + g)).sqrt();
+        let (from, to) = (-h / (side - c), h / (side + c));
+        on_both_sheets(&given, &design(k, Extent::Elevation(-30.0)), |surface| {
+            let [stretch] = &surface.buried[..] else { panic!("{g} {c}: {:?}", surface.buried) };
+            assert_eq!((stretch.chain, stretch.by_chain, stretch.free_slope), (0, 1, None));
+            close(stretch.from, a + from, EXACT, "entry");
+            close(stretch.to, a + to, EXACT, "exit");
+            // Deepest under the crossing, where the upper line itself passes h higher.
+            close(stretch.depth, h, 1e-6, "depth");
+            assert!((stretch.by_station - b).abs() < 1e-5 && stretch.at.length() < 1e-5, "{stretch:?}");
+            // Both lines show outside of the stretch, and nothing of it.
+            let shown = (2.0 * a - (to - from)) * 1.0_f64.hypot(c) + 2.0 * b * 1.0_f64.hypot(g);
+            close(length(surface, CurveKind::Hinge), shown, EXACT, "hinge");
+            for x in [from - 1.0, to + 1.0] {
+                close(height(surface, x, 0.0).expect("inside"), c * x, EXACT, "lower line");
+            }
+            close(height(surface, 0.0, 1.0).expect("inside"), h + g, EXACT, "upper line");
+        });
+    }
+}

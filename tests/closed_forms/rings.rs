@@ -1,0 +1,173 @@
+//! Level rings: pads, pits, roofs, holes, cones.
+
+use crate::common::build::{design, line, on_both_sheets, polygon, rectangle, regular};
+use crate::common::measure::{close, curves, length, level_length, net_above, not_above, plan_area};
+use slopegen::model::{CurveKind, Design, Extent, Part, Side};
+use slopegen::surface;
+use std::f64::consts::{PI, TAU};
+
+/// Polyhedral figures: rounding of sums of a few hundred terms.
+const EXACT: f64 = 1e-9;
+
+/// Area of the points within `d` of a convex region of area `a` and perimeter `p` (Steiner): `a + p·d + π·d²`.
+fn parallel_area(a: f64, p: f64, d: f64) -> f64 {
+    a + p * d + PI * d * d
+}
+
+/// Volume under a slope that falls by `h` from a level convex region, `∫₀ʰ parallel_area(n·t) dt = a·h + p·n·h²/2 + π·n²·h³/3`.
+fn parallel_volume(a: f64, p: f64, n: f64, h: f64) -> f64 {
+    a * h + p * n * h * h / 2.0 + PI / 3.0 * n * n * h * h * h
+}
+
+/// Volume dug by slopes that fall by `d` inwards from a level rectangle, floor included:
+/// `∫₀ᵈ (l − 2nt)(w − 2nt) dt = lwd − (l + w)nd² + 4n²d³/3`.
+fn pit_volume(l: f64, w: f64, n: f64, d: f64) -> f64 {
+    l * w * d - (l + w) * n * d * d + 4.0 / 3.0 * n * n * d * d * d
+}
+
+#[test]
+fn pad() {
+    for (l, w, h, k) in [(30.0, 30.0, 4.0, 0.5), (50.0, 20.0, 7.0, 2.0 / 3.0), (40.0, 25.0, 3.0, 2.0)] {
+        let (n, a, p) = (1.0 / k, l * w, 2.0 * (l + w));
+        // Levels are whole multiples of the interval: the end is one too.
+        let end = 2.0 * h;
+        let wanted = Design { interval: Some(h / 8.0), ..design(k, Extent::Elevation(end)) };
+        on_both_sheets(&line(&[rectangle([10.0, -5.0, end + h], l, w)]), &wanted, |surface| {
+            let (v, bound) = (&surface.volumes, surface.volumes.error_bound);
+            // Chords take a third of the tolerance, and only on cones: π n² h² in plan.
+            assert!(bound <= wanted.tolerance / 3.0 * PI * (n * h).powi(2) * (1.0 + EXACT), "bound {bound}");
+            not_above(v.fill, parallel_volume(a, p, n, h), bound, "fill");
+            assert_eq!((v.cut, v.cut_max, v.reference), (0.0, 0.0, end));
+            close(v.fill_max, h, EXACT, "greatest fill");
+            not_above(surface.areas.plan, parallel_area(a, p, n * h), bound * n, "plan area");
+            close(surface.areas.platform, a, EXACT, "platform");
+            assert_eq!(surface.areas.cut_slope, 0.0);
+            // Slope k: √(1 + k²) of the plan area; chord planes on cones are steeper by up to 0.05°, that is 0.1 % of 1 + k².
+            let slope_plan = parallel_area(a, p, n * h) - a;
+            close(surface.areas.fill_slope, slope_plan * 1.0_f64.hypot(k), 1e-3, "slope area");
+            assert_eq!(surface.levels.len(), 7);
+            for i in 1..8 {
+                // A chord at sagitta s = (tolerance/3)/k and radius r is short of its arc by the factor θ²/24, s = rθ²/8: by s/3r
+                // of 2πr in all.
+                let depth = h * f64::from(i) / 8.0;
+                let short = TAU / 3.0 * wanted.tolerance / (3.0 * k);
+                not_above(level_length(surface, end + h - depth), p + TAU * n * depth, short, "level curve");
+            }
+            assert_eq!(curves(surface, CurveKind::Valley).count() + curves(surface, CurveKind::Ridge).count(), 0);
+            close(length(surface, CurveKind::Hinge), p, EXACT, "hinge");
+        });
+    }
+}
+
+#[test]
+fn pit() {
+    for (l, w, d, k) in [(60.0, 35.0, 6.0, 0.5), (20.0, 20.0, 4.0, 1.0), (90.0, 31.0, 8.0, 0.75)] {
+        let n = 1.0 / k;
+        let floor = (l - 2.0 * n * d) * (w - 2.0 * n * d);
+        let wanted = Design { side_of_rings: Side::Inside, ..design(k, Extent::Elevation(50.0 - d)) };
+        on_both_sheets(&line(&[rectangle([0.0, 0.0, 50.0], l, w)]), &wanted, |surface| {
+            let v = &surface.volumes;
+            close(v.cut, pit_volume(l, w, n, d), EXACT, "cut");
+            assert_eq!((v.fill, v.error_bound, v.reference), (0.0, 0.0, 50.0));
+            close(v.cut_max, d, EXACT, "depth");
+            close(surface.areas.plan, l * w, EXACT, "plan area");
+            close(surface.areas.platform, floor, EXACT, "floor");
+            close(surface.areas.fill_slope, (l * w - floor) * 1.0_f64.hypot(k), EXACT, "slopes");
+            // Four creases under 45° in plan, n·d aside and d down.
+            close(length(surface, CurveKind::Valley), 4.0 * (2.0 * n * n + 1.0).sqrt() * d, EXACT, "creases");
+            close(net_above(surface, 50.0), -pit_volume(l, w, n, d), EXACT, "own sum");
+        });
+    }
+}
+
+/// Slopes inwards with nothing to stop them meet over the middle line: a hip roof, height `k·w/2`, upside down when falling.
+/// `l − w` of prism with section `w·height/2` and two half pyramids: `w·h/2·(l − w) + w²·h/3 = k·w²(3l − w)/12`.
+#[test]
+fn roof() {
+    for (l, w, k) in [(40.0, 18.0, 0.6), (25.0, 25.0, 1.0), (33.0, 10.0, 2.5)] {
+        let wanted = Design { side_of_rings: Side::Inside, ..design(k, Extent::Elevation(-1000.0)) };
+        on_both_sheets(&line(&[rectangle([-7.0, 3.0, 5.0], l, w)]), &wanted, |surface| {
+            let v = &surface.volumes;
+            close(v.cut, k * w * w * (3.0 * l - w) / 12.0, EXACT, "volume under the eaves");
+            close(v.cut_max, k * w / 2.0, EXACT, "height");
+            close(surface.areas.plan, l * w, EXACT, "plan area");
+            close(surface.areas.fill_slope, l * w * 1.0_f64.hypot(k), EXACT, "slopes");
+            assert_eq!(surface.areas.platform, 0.0);
+            // The ridge and four hips, each over half the width both ways.
+            let hip = w / 2.0 * (2.0 + k * k).sqrt();
+            close(length(surface, CurveKind::Valley), l - w + 4.0 * hip, EXACT, "hips and ridge");
+            assert_eq!(curves(surface, CurveKind::Boundary).count(), 0);
+        });
+    }
+}
+
+/// A platform with a rectangular hole: outside of the polygon lie the far side and the hole, a shaft that narrows downwards.
+#[test]
+fn ring_with_a_hole() {
+    let (l, w, a, b, h, k) = (80.0, 60.0, 30.0, 22.0, 4.0, 0.5);
+    let n = 1.0 / k;
+    let given = polygon(&[rectangle([0.0, 0.0, h], l, w), rectangle([20.0, 15.0, h], a, b)]);
+    on_both_sheets(&given, &design(k, Extent::Elevation(0.0)), |surface| {
+        let bound = surface.volumes.error_bound;
+        let fill = parallel_volume(l * w, 2.0 * (l + w), n, h) - pit_volume(a, b, n, h);
+        not_above(surface.volumes.fill, fill, bound, "fill");
+        close(surface.areas.platform, l * w - a * b, EXACT, "platform");
+        let open = (a - 2.0 * n * h) * (b - 2.0 * n * h);
+        not_above(surface.areas.plan, parallel_area(l * w, 2.0 * (l + w), n * h) - open, n * bound, "plan area");
+    });
+    // Inside of the polygon the slopes run from both rings towards each other. They meet nowhere at this depth: the floor is what is
+    // left of the rectangle, less all within n·d of the hole.
+    let d = 2.0;
+    let inside = Design { side_of_rings: Side::Inside, ..design(k, Extent::Elevation(h - d)) };
+    on_both_sheets(&given, &inside, |surface| {
+        let bound = surface.volumes.error_bound;
+        let left = (l - 2.0 * n * d) * (w - 2.0 * n * d) - parallel_area(a * b, 2.0 * (a + b), n * d);
+        close(surface.areas.plan, l * w - a * b, EXACT, "plan area");
+        let chords = n * bound;
+        assert!((surface.areas.platform - left).abs() <= chords, "floor {} for {left}", surface.areas.platform);
+        // Dug: what the pit digs, less the hole and the slopes around it down to the floor, ∫₀ᵈ of the parallel area.
+        let cut = pit_volume(l, w, n, d) - parallel_volume(a * b, 2.0 * (a + b), n, d);
+        assert!((surface.volumes.cut - cut).abs() <= bound, "cut {} for {cut}", surface.volumes.cut);
+    });
+}
+
+/// A regular polygon: exact by Steiner's formula; with many corners a frustum, with a tiny radius a cone.
+#[test]
+fn cone() {
+    let k = 0.5;
+    let n = 1.0 / k;
+    for (corners, radius, h) in [(3, 5.0, 2.0), (6, 12.0, 5.0), (90, 12.0, 5.0), (8, 1e-3, 4.0), (90, 0.5, 30.0)] {
+        let wanted = Design { tolerance: 1e-4, ..design(k, Extent::Elevation(0.0)) };
+        on_both_sheets(&line(&[regular(corners, radius, h)]), &wanted, |surface| {
+            let half = PI / corners as f64;
+            let (a, p) = (corners as f64 * radius * radius * half.sin() * half.cos(), 2.0 * corners as f64 * radius * half.sin());
+            let v = &surface.volumes;
+            let expected = parallel_volume(a, p, n, h);
+            // Simplification moves the line both ways.
+            assert!((v.fill - expected).abs() <= v.error_bound + EXACT * expected, "{corners}: {} for {expected}", v.fill);
+            assert!(v.error_bound <= 2.0 / 3.0 * wanted.tolerance * surface.areas.plan, "{corners}: {}", v.error_bound);
+            // The frustum from r to r + nh, πh/3·(r² + rR + R²): the polygon is inside the circle by r(1 − cos) at most.
+            let far = radius + n * h;
+            let frustum = |r: f64| PI * h / 3.0 * (r * r + r * (r + n * h) + (r + n * h).powi(2));
+            not_above(v.fill, frustum(radius), frustum(radius) - frustum(radius * half.cos()) + v.error_bound, "frustum");
+            assert!(surface.areas.plan <= PI * far * far);
+        });
+    }
+}
+
+/// A plane at half the height cuts the pad: above it the upper part, below it the lower part of the slopes, between the plan
+/// area at the foot and those higher up: `∫ (A(h) − A(t)) dt` from the middle to the foot.
+#[test]
+fn cut_and_fill_against_a_plane_in_between() {
+    let (l, w, h, k) = (30.0, 20.0, 6.0, 0.5);
+    let (n, a, p) = (1.0 / k, l * w, 2.0 * (l + w));
+    let wanted = design(k, Extent::Elevation(0.0));
+    let surface = surface::build(&line(&[rectangle([0.0, 0.0, h], l, w)]), &wanted, Some(h / 2.0), &()).expect("a pad");
+    let v = &surface.volumes;
+    not_above(v.fill, parallel_volume(a, p, n, h / 2.0), v.error_bound, "fill");
+    let lower = parallel_volume(a, p, n, h) - parallel_volume(a, p, n, h / 2.0);
+    let cut = parallel_area(a, p, n * h) * h / 2.0 - lower;
+    assert!((v.cut - cut).abs() <= v.error_bound + n * v.error_bound * h / 2.0, "cut {} for {cut}", v.cut);
+    close(v.fill - v.cut, net_above(&surface, h / 2.0), EXACT, "net");
+    close(plan_area(&surface, Part::Platform), a, EXACT, "platform");
+}

@@ -1,0 +1,105 @@
+//! The same input gives the same bytes, on any number of threads and however often.
+
+mod common;
+
+use common::build::{design, line};
+use common::lines::{Random, case, crossing_roads, road, star};
+use common::oracle::Polyline;
+use slopegen::model::{Design, Extent, Sheet, Side};
+use slopegen::surface::{self, Surface};
+use slopegen::write::{MeshFormat, write_lines};
+use std::fs;
+use std::path::Path;
+
+/// Everything that is written of a surface.
+fn bytes(surface: &Surface) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for format in [MeshFormat::Obj, MeshFormat::Ply] {
+        format.write(&mut bytes, &surface.tin).expect("a sink in memory");
+    }
+    write_lines(&mut bytes, &surface.lines, None).expect("a sink in memory");
+    // Figures of the report, to the last bit: `{:?}` of a number reads back as the same number.
+    let figures = (&surface.levels, &surface.buried, surface.certificate, &surface.areas, &surface.volumes, &surface.notes);
+    bytes.extend(format!("{figures:?} {} {}", surface.simplified, surface.simplified_max).into_bytes());
+    bytes
+}
+
+fn on_threads(threads: usize, lines: &[Polyline], design: &Design) -> Vec<u8> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+    pool.install(|| bytes(&surface::build(&line(lines), design, None, &()).unwrap_or_else(|e| panic!("{design:?}: {e}"))))
+}
+
+#[track_caller]
+fn same_on_any_number_of_threads(name: &str, lines: &[Polyline], design: &Design) {
+    let expected = on_threads(1, lines, design);
+    for threads in [1, 2, 5] {
+        // Not assert_eq: the bytes are too many to print.
+        assert!(on_threads(threads, lines, design) == expected, "{name}: other bytes on {threads} threads");
+    }
+}
+
+#[test]
+fn small_lines_of_all_kinds() {
+    for seed in 0..30 {
+        let case = case(seed, 40);
+        let extent = [Extent::Distance(5.0), Extent::Height(4.0 * case.k)][seed as usize % 2];
+        let sheet = [Sheet::Falling, Sheet::Rising][seed as usize / 2 % 2];
+        let wanted = Design { sheet, side_of_rings: Side::Both, tolerance: 0.01, ..design(case.k, extent) };
+        same_on_any_number_of_threads(&case.name, &case.lines, &wanted);
+    }
+}
+
+/// Large enough that the work is really shared out.
+#[test]
+fn large_lines() {
+    let k = 0.5;
+    let random = &mut Random::new(11);
+    let noisy = vec![star(random, 3_000, 200.0, 6.0, 0.02, k)];
+    let rough = vec![road(random, 1_000, 4.0, true, k)];
+    let crossing = crossing_roads(random, 60, 4.0, k);
+    for (name, lines) in [("noisy ring", noisy), ("rough road", rough), ("crossing roads", crossing)] {
+        let wanted = Design { tolerance: 0.01, ..design(k, Extent::Distance(12.0)) };
+        same_on_any_number_of_threads(name, &lines, &wanted);
+    }
+}
+
+/// The program itself: meshes, line work and JSON report (its times aside), twice on one thread and on two.
+#[test]
+fn files() {
+    let lines = [star(&mut Random::new(5), 2_000, 150.0, 5.0, 0.02, 0.5)];
+    let folder = tempfile::tempdir().expect("a folder");
+    let ring: String = lines[0].points.iter().map(|p| format!("{},{},{}\n", p[0], p[1], p[2])).collect();
+    fs::write(folder.path().join("ring.csv"), format!("x,y,z\n{ring}")).expect("written");
+    let expected = run(folder.path(), "1");
+    assert!(expected.iter().all(|(_, content)| !content.is_empty()));
+    for threads in ["1", "2", "2", "4"] {
+        for ((name, now), (_, before)) in run(folder.path(), threads).iter().zip(&expected) {
+            assert!(now == before, "{name}: other bytes on {threads} threads");
+        }
+    }
+}
+
+/// Builds and reads what was written.
+fn run(folder: &Path, threads: &str) -> Vec<(&'static str, Vec<u8>)> {
+    let outputs = ["m.obj", "m.ply", "l.geojson", "r.json"];
+    let arguments = "build ring.csv --closed --slope 1:2 --distance 15 -o m.obj -o m.ply --lines l.geojson --report r.json";
+    assert_cmd::Command::new(env!("CARGO_BIN_EXE_slopegen"))
+        .args(arguments.split(' ').chain(["--threads", threads]))
+        .current_dir(folder)
+        .timeout(std::time::Duration::from_secs(120))
+        .assert()
+        .success();
+    let read = |name: &'static str| {
+        let content = fs::read(folder.join(name)).expect(name);
+        (name, if name == "r.json" { without_times(&content) } else { content })
+    };
+    outputs.map(read).to_vec()
+}
+
+/// A report without the one key that may differ from run to run; the order of the others counts.
+fn without_times(report: &[u8]) -> Vec<u8> {
+    let text = std::str::from_utf8(report).expect("UTF-8");
+    let timing = text.find("\n  \"timing\": {").expect("the report has times");
+    let end = timing + text[timing..].find('}').expect("times end");
+    [&text[..timing], &text[end..]].concat().into_bytes()
+}
