@@ -27,7 +27,7 @@ doc:
 
 # Figures of speed; see docs/performance.md
 bench:
-    cargo bench
+    cargo bench --bench engine
 
 # The pictures of the README, from fixtures
 picture:

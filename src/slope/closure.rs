@@ -37,6 +37,10 @@ pub type VertexId = u32;
 /// No vertex: a knot that only says which partner is met there.
 const HINT: VertexId = VertexId::MAX;
 
+/// A junction found in this round by one facet is numbered from here until all facets agree on numbers: fewer than a
+/// thousand million vertices fit below.
+const FRESH: VertexId = 1 << 30;
+
 /// A place on the far boundary of a facet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Knot {
@@ -291,7 +295,6 @@ impl<'a> State<'a> {
                 }
                 boundary.knots[item.knot].vertex = id;
             }
-            boundary.knots.retain(|k| k.vertex != HINT);
             boundaries[f as usize] = boundary;
         }
         let mut tell: Vec<(FacetId, VertexId)> = Vec::new();
@@ -347,8 +350,6 @@ impl<'a> State<'a> {
             return Vec::new();
         }
         let knots = &mut boundary.knots;
-        // Junctions without a number yet carry an index into `found`, counted down from the hint mark.
-        let fresh = |i: usize| HINT - 1 - i as VertexId;
         let budget = MAX_STEPS[0] + MAX_STEPS[1] * knots.len();
         let mut steps = 0;
         let mut i = 0;
@@ -367,7 +368,7 @@ impl<'a> State<'a> {
                         Some(&id) => id,
                         None => {
                             found.push((key, point));
-                            fresh(found.len() - 1)
+                            FRESH + found.len() as VertexId - 1
                         }
                     };
                     knots.insert(i + 1, Knot { tau, vertex, left, right });
@@ -382,17 +383,11 @@ impl<'a> State<'a> {
                 }
             }
         }
-        let base = self.vertices.len();
-        let is_fresh = |v: VertexId| {
-            v != HINT && v as usize >= base && (HINT - 1 - v) as usize >= usize::MIN && (HINT - 1 - v) < found.len() as u32
-        };
-        knots.retain(|k| k.vertex != HINT || k.left != k.right);
-        knots
-            .iter()
-            .enumerate()
-            .filter(|(_, k)| is_fresh(k.vertex))
+        knots.retain(|k| k.vertex != HINT);
+        let fresh = knots.iter().enumerate().filter(|(_, k)| k.vertex >= FRESH);
+        fresh
             .map(|(knot, k)| {
-                let (key, point) = found[(HINT - 1 - k.vertex) as usize];
+                let (key, point) = found[(k.vertex - FRESH) as usize];
                 Found { knot, key, point }
             })
             .collect()

@@ -24,8 +24,8 @@ pub enum Trace {
     Level(u32),
     /// Part of a crease between two strips or cones.
     Crease,
-    /// Part of the line.
-    Hinge,
+    /// Part of the line: of the edge of the network with this number.
+    Hinge(u32),
 }
 
 /// A mesh edge with a meaning.
@@ -350,7 +350,7 @@ impl<'a> Shared<'a> {
         ring.extend(on_edge.into_iter().map(|p| corner(p.id, foot(p), 0.0, true, cell)));
         let end = if right.is_some() { (nodes[1], facet.tau_max) } else { (last.id, last.tau) };
         ring.push(corner(end.0, end.1, 0.0, true, cell));
-        cell.traces.extend(ring.windows(2).map(|w| (Trace::Hinge, [w[0].id, w[1].id])));
+        cell.traces.extend(ring.windows(2).map(|w| (Trace::Hinge(h / 2), [w[0].id, w[1].id])));
         let rung = |id: PointId, tau: f64| corner(id, tau, facet.parameters(self.points[id as usize].truncate()).1, false, cell);
         if let Some(j) = right {
             ring.extend(self.joint_ladder(j, last.id).into_iter().map(|id| rung(id, facet.tau_max)));

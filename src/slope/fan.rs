@@ -16,7 +16,7 @@ const HIDDEN_MARGIN: f64 = 1e-12;
 pub struct Joint {
     /// Node of the foot.
     pub node: u32,
-    /// Facet on the left of the ruling looking down it from the node... seen along the line: the earlier one.
+    /// The earlier of the two facets, walking along the line with both on the left.
     pub left: FacetId,
     /// The later one.
     pub right: FacetId,

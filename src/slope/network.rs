@@ -208,10 +208,8 @@ impl Network {
             new_id[edge.a as usize] = 0;
             new_id[edge.b as usize] = 0;
         }
-        let mut kept = 0;
-        for id in new_id.iter_mut().filter(|id| **id == 0) {
-            *id = kept;
-            kept += 1;
+        for (kept, id) in new_id.iter_mut().filter(|id| **id == 0).enumerate() {
+            *id = kept as u32;
         }
         let keep = |i: usize| new_id[i] != u32::MAX;
         self.nodes = self.nodes.iter().enumerate().filter(|&(i, _)| keep(i)).map(|(_, &p)| p).collect();

@@ -42,6 +42,16 @@ struct Chain {
     last: usize,
 }
 
+/// Where a chain begins or ends on a level.
+#[derive(Clone, Copy, Debug)]
+struct ChainEnd {
+    /// Place along the level.
+    place: f64,
+    /// Whether the chain ends there; else it begins.
+    ends: bool,
+    chain: usize,
+}
+
 impl Slice {
     /// For a strip with rulings in direction `d`.
     pub fn new(d: DVec2) -> Self {
@@ -104,35 +114,33 @@ impl Slice {
     /// For each chain the one that follows it around its piece, over a chord along a level.
     fn link(&mut self, ring: &[Corner], chains: &[Chain]) -> Option<Vec<usize>> {
         let n = ring.len();
-        // Ends of chains by band and level: (place along the level, whether the chain ends there, chain).
-        let mut ends: FxHashMap<(Code, Code), Vec<(f64, bool, usize)>> = FxHashMap::default();
+        let mut by_level: FxHashMap<(Code, Code), Vec<ChainEnd>> = FxHashMap::default();
         for (c, chain) in chains.iter().enumerate() {
-            for (corner, is_end) in [(&ring[chain.first % n], false), (&ring[chain.last % n], true)] {
-                ends.entry((chain.band, corner.code)).or_default().push((corner.plan.dot(self.along), is_end, c));
+            for (corner, ends) in [(&ring[chain.first % n], false), (&ring[chain.last % n], true)] {
+                let place = corner.plan.dot(self.along);
+                by_level.entry((chain.band, corner.code)).or_default().push(ChainEnd { place, ends, chain: c });
             }
         }
-        let mut keys: Vec<(Code, Code)> = ends.keys().copied().collect();
+        let mut keys: Vec<(Code, Code)> = by_level.keys().copied().collect();
         keys.sort_unstable();
         let mut next = vec![usize::MAX; chains.len()];
         for key in keys {
             let (band, code) = key;
-            let list = ends.get_mut(&key)?;
+            let list = by_level.get_mut(&key)?;
             // The level above a band is nearer to the edge: it is run with growing τ, the one below against it.
             let above = code + 1 == 2 * band;
             let below = code == 2 * band + 1;
             if !(above || below) {
                 return None;
             }
-            list.sort_by(|a, b| if above { a.0.total_cmp(&b.0) } else { b.0.total_cmp(&a.0) });
-            let mut i = 0;
+            list.sort_by(|a, b| if above { a.place.total_cmp(&b.place) } else { b.place.total_cmp(&a.place) });
             let mut open: Option<usize> = None;
-            while i < list.len() {
+            for i in 0..list.len() {
                 // Ends and starts take turns; where several fall on one corner, the one whose turn it is goes first.
-                let fits = |e: &(f64, bool, usize)| e.1 == open.is_none();
-                let same = list[i..].iter().take_while(|e| e.0 == list[i].0).count();
-                let at = (i..i + same).find(|&j| fits(&list[j]))?;
+                let same = list[i..].iter().take_while(|e| e.place == list[i].place).count();
+                let at = (i..i + same).find(|&j| list[j].ends == open.is_none())?;
                 list.swap(i, at);
-                let chain = list[i].2;
+                let chain = list[i].chain;
                 match open.take() {
                     None => open = Some(chain),
                     Some(from) => {
@@ -143,7 +151,6 @@ impl Slice {
                         }
                     }
                 }
-                i += 1;
             }
             if open.is_some() {
                 return None;

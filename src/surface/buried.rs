@@ -2,9 +2,7 @@
 
 use crate::model::{Design, Line, Note, Sheet as SheetKind};
 use crate::sheet::Segment;
-use crate::slope::arcs::Arcs;
 use crate::slope::closure::Closure;
-use crate::slope::emit::EdgePoint;
 use crate::slope::network::{Edge, Given, Network, twin};
 use crate::slope::trim::Sheet;
 use glam::{DVec2, DVec3};
@@ -63,17 +61,12 @@ struct Part {
     stations: [f64; 2],
 }
 
-/// Places on each edge where it goes below another part's slope or comes out, in numbers of the emission.
-pub(crate) fn entries(sheet: &Sheet, closure: &Closure, arcs: &Arcs) -> Vec<Vec<EdgePoint>> {
-    let mut entries = vec![Vec::new(); sheet.network.edges.len()];
-    for (f, knots) in closure.knots.iter().enumerate().take(2 * entries.len()) {
-        let length = sheet.facet(f as u32).tau_max;
-        for knot in knots.iter().filter(|k| (k.left == twin(f as u32)) != (k.right == twin(f as u32))) {
-            let s = if f % 2 == 0 { knot.tau } else { length - knot.tau };
-            entries[f / 2].push(EdgePoint { s, id: arcs.vertex(knot.vertex), given: None });
-        }
-    }
-    entries
+/// Stretches of edge `e` that do not show, as distances from its start.
+pub(crate) fn covered_ranges(sheet: &Sheet, closure: &Closure, e: u32) -> Vec<[f64; 2]> {
+    let Some(f) = [2 * e, 2 * e + 1].into_iter().find(|&f| !closure.knots[f as usize].is_empty()) else { return Vec::new() };
+    let length = sheet.facet(f).tau_max;
+    let covered = closure.knots[f as usize].windows(2).filter(|w| w[0].right == twin(f));
+    covered.map(|w| if f % 2 == 0 { [w[0].tau, w[1].tau] } else { [length - w[1].tau, length - w[0].tau] }).collect()
 }
 
 /// Finds the covered stretches of a closed sheet.
@@ -81,13 +74,7 @@ pub(crate) fn stretches(line: &Line, sheet: &Sheet, closure: &Closure) -> Found 
     let stations = Stations::new(line, sheet.network);
     let mut parts: Vec<(usize, Part)> = Vec::new();
     for (e, edge) in sheet.network.edges.iter().enumerate() {
-        let Some(f) = [2 * e, 2 * e + 1].into_iter().find(|&f| !closure.knots[f].is_empty()) else { continue };
-        let length = sheet.facet(f as u32).tau_max;
-        for w in closure.knots[f].windows(2) {
-            if w[0].right != twin(f as u32) || w[1].tau - w[0].tau <= SHORTEST {
-                continue;
-            }
-            let s = if f % 2 == 0 { [w[0].tau, w[1].tau] } else { [length - w[1].tau, length - w[0].tau] };
+        for s in covered_ranges(sheet, closure, e as u32).into_iter().filter(|s| s[1] - s[0] > SHORTEST) {
             let middle = on(sheet, edge, 0.5 * (s[0] + s[1]));
             let covered = sheet.index.height(middle.truncate(), None).0 > middle.z + TOUCHING;
             let at = s.map(|s| stations.of(e, s));

@@ -1,11 +1,11 @@
 //! The certificate: figures measured on the very mesh that is written.
 
+use super::buried::covered_ranges;
 use super::{Body, SurfaceError};
 use crate::mesh::check::{self, HalfEdges};
 use crate::model::{Design, Line, Part};
 use crate::sheet::Heights;
 use crate::slope::closure::Closure;
-use crate::slope::network::twin;
 use crate::slope::trim::Sheet;
 use glam::DVec2;
 
@@ -141,14 +141,4 @@ fn edges_kept(sheet: &Sheet, body: &Body, edges: &HalfEdges, closure: &Closure) 
 /// Whether a covered stretch of edge `e` meets the one between two of its points.
 fn covered(sheet: &Sheet, closure: &Closure, e: u32, [from, to]: [f64; 2]) -> bool {
     covered_ranges(sheet, closure, e).iter().any(|r| r[0] < to && from < r[1])
-}
-
-fn covered_ranges(sheet: &Sheet, closure: &Closure, e: u32) -> Vec<[f64; 2]> {
-    let Some(f) = [2 * e, 2 * e + 1].into_iter().find(|&f| !closure.knots[f as usize].is_empty()) else { return Vec::new() };
-    let length = sheet.facet(f).tau_max;
-    closure.knots[f as usize]
-        .windows(2)
-        .filter(|w| w[0].right == twin(f))
-        .map(|w| if f % 2 == 0 { [w[0].tau, w[1].tau] } else { [length - w[1].tau, length - w[0].tau] })
-        .collect()
 }

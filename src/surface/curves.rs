@@ -27,11 +27,15 @@ pub(crate) fn lines(
     let mut by_level: BTreeMap<u32, Vec<[u32; 2]>> = BTreeMap::new();
     let mut creases = Vec::new();
     let mut hinge: Vec<[u32; 2]> = Vec::new();
+    let mut by_chain: Vec<Vec<[u32; 2]>> = vec![Vec::new(); line.chains.len()];
     for &(kind, ends) in &body.traces {
         match kind {
             Trace::Level(u) => by_level.entry(u).or_default().push(ends),
             Trace::Crease => creases.push(ends),
-            Trace::Hinge => hinge.push(ends),
+            Trace::Hinge(e) => {
+                hinge.push(ends);
+                by_chain[network.edges[e as usize].given[0].chain as usize].push(ends);
+            }
         }
     }
     for (u, segments) in &by_level {
@@ -40,15 +44,7 @@ pub(crate) fn lines(
     // The falling sheet is the greatest of its facets: where two meet it is lower than around.
     let crease = if design.sheet == SheetKind::Falling { CurveKind::Valley } else { CurveKind::Ridge };
     push(crease, None, None, &creases);
-    let mut by_chain: Vec<Vec<[u32; 2]>> = vec![Vec::new(); line.chains.len()];
-    for (edge, points) in network.edges.iter().zip(&body.hinge_points) {
-        for w in points.windows(2) {
-            let ends = [w[0].id.min(w[1].id), w[0].id.max(w[1].id)];
-            if hinge.binary_search(&ends).is_ok() {
-                by_chain[edge.given[0].chain as usize].push(ends);
-            }
-        }
-    }
+    hinge.sort_unstable();
     for (chain, segments) in line.chains.iter().zip(&by_chain) {
         push(CurveKind::Hinge, None, Some(chain.name.clone()), segments);
     }

@@ -62,8 +62,12 @@ fn platform_outline(network: &Network, slopes: &Slopes) -> Vec<Vec<u32>> {
 
 /// The boundary of the slopes away from the line, with the slopes on its right.
 fn rim(slopes: &Slopes) -> Vec<Vec<u32>> {
-    let hinge: FxHashSet<[u32; 2]> =
-        slopes.traces.iter().filter(|(kind, _)| *kind == Trace::Hinge).flat_map(|&(_, [a, b])| [[a, b], [b, a]]).collect();
+    let hinge: FxHashSet<[u32; 2]> = slopes
+        .traces
+        .iter()
+        .filter(|(kind, _)| matches!(kind, Trace::Hinge(_)))
+        .flat_map(|&(_, [a, b])| [[a, b], [b, a]])
+        .collect();
     let edges = HalfEdges::new(slopes.points.len(), &slopes.triangles);
     edges.open().into_iter().filter(|e| !hinge.contains(e)).map(|[a, b]| vec![b, a]).collect()
 }

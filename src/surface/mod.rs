@@ -208,6 +208,7 @@ pub fn build(line: &Line, design: &Design, reference: Option<f64>, watch: &dyn W
     }
     let ends = Ends::new(&network, line, design)?;
     let levels = ends.levels(design)?;
+    go_on("index")?;
     let fans = Fans::new(&network, k);
     let index = trim::index_of(&network, k);
     let sheet = Sheet::new(&network, &fans, &index, k, ends.closure);
@@ -223,7 +224,7 @@ pub fn build(line: &Line, design: &Design, reference: Option<f64>, watch: &dyn W
     let buried = buried::stretches(line, &sheet, &solved.closure);
     let flats = flats::fill(line, design, &network, &slopes, &buried.stretches)?;
     go_on("check")?;
-    let body = Body::new(&network, design, &slopes, &flats, &buried::entries(&sheet, &solved.closure, &solved.arcs));
+    let body = Body::new(&network, design, &slopes, &flats);
     let edges = HalfEdges::new(body.tin.vertices.len(), &body.tin.triangles);
     let (certificate, lines) = rayon::join(
         || certificate::measure(line, design, &sheet, &body, &edges, &solved.closure),
@@ -308,13 +309,10 @@ pub(crate) struct Body {
     traces: Vec<emit::Traced>,
     /// Points of each edge of the network from end to end, in mesh numbers, with the given vertex where there is one.
     edge_points: Vec<Vec<emit::EdgePoint>>,
-    /// The same with the places between them where the edge goes below another part's slope.
-    hinge_points: Vec<Vec<emit::EdgePoint>>,
 }
 
 impl Body {
-    /// `entries`: see [`buried::entries`].
-    fn new(network: &Network, design: &Design, slopes: &Slopes, flats: &[[u32; 3]], entries: &[Vec<emit::EdgePoint>]) -> Self {
+    fn new(network: &Network, design: &Design, slopes: &Slopes, flats: &[[u32; 3]]) -> Self {
         let mut number = vec![u32::MAX; slopes.points.len()];
         for &v in slopes.triangles.as_flattened().iter().chain(flats.as_flattened()) {
             number[v as usize] = 0;
@@ -356,14 +354,8 @@ impl Body {
                     .collect()
             })
             .collect();
-        let mut hinge_points = edge_points.clone();
-        for (points, entries) in hinge_points.iter_mut().zip(entries) {
-            points.extend(entries.iter().map(|p| emit::EdgePoint { id: number[p.id as usize], ..*p }));
-            points.sort_by(|p, q| p.s.total_cmp(&q.s));
-            points.dedup_by_key(|p| p.id);
-        }
         let tin = Tin { frame: network.frame, vertices, triangles, parts };
-        Self { tin, on_cone: slopes.on_cone.clone(), traces, edge_points, hinge_points }
+        Self { tin, on_cone: slopes.on_cone.clone(), traces, edge_points }
     }
 
     fn areas(&self) -> Areas {
