@@ -84,7 +84,7 @@ fn the_free_slope_is_the_limit() {
 #[test]
 fn crossing_roads() {
     let (a, b, h, k) = (50.0, 40.0, 6.0, 0.5_f64);
-    for (g, c) in [(0.0, 0.3), (0.25, -0.1)] {
+    for (g, c) in [(0.0, 0.0), (0.2, 0.0), (0.0, 0.3), (0.25, -0.1)] {
         let given = line(&[open(&[[-a, 0.0, -a * c], [a, 0.0, a * c]]), open(&[[0.0, -b, h - b * g], [0.0, b, h + b * g]])]);
         let side = ((k - g) * (k + g)).sqrt();
         let (from, to) = (-h / (side - c), h / (side + c));
