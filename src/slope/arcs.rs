@@ -3,7 +3,7 @@
 //! Every piece of a facet's far boundary that it shares with partner `k` must be a piece of `k`'s boundary with it as the
 //! partner, run the other way. Where that holds for all, nothing was missed (docs/theory.md, "The certificate").
 
-use super::closure::{Closure, SNAP, VertexId};
+use super::closure::{Closure, Knot, SNAP, VertexId};
 use super::facet::{END, FacetId};
 use super::network::twin;
 use super::trim::Sheet;
@@ -84,6 +84,8 @@ impl Arcs {
         let mut waiting: FxHashMap<[u32; 4], ArcId> = FxHashMap::default();
         for (f, knots) in closure.knots.iter().enumerate() {
             let f = f as FacetId;
+            let (Some(first), Some(last)) = (knots.first(), knots.last()) else { continue };
+            let (first, last) = (merge.root(first.vertex), merge.root(last.vertex));
             for w in knots.windows(2) {
                 let partner = w[0].right;
                 let ends = [merge.root(w[0].vertex), merge.root(w[1].vertex)];
@@ -91,7 +93,17 @@ impl Arcs {
                 if ends[0] == ends[1] || covered {
                     continue;
                 }
-                let tau = [w[0].tau, w[1].tau];
+                // A vertex merged with an end of the range stands at that end.
+                let place = |k: &Knot, root: VertexId| {
+                    if root == first {
+                        knots[0].tau
+                    } else if root == last {
+                        knots[knots.len() - 1].tau
+                    } else {
+                        k.tau
+                    }
+                };
+                let tau = [place(&w[0], ends[0]), place(&w[1], ends[1])];
                 let mine = [partner, f, ends[1], ends[0]];
                 let mut arc = arcs.len() as ArcId;
                 let mut forward = true;

@@ -442,7 +442,7 @@ impl<'a> Shared<'a> {
                 cell.triangles.push([left[i], right[j + 1], left[i + 1]]);
                 i += 1;
                 j += 1;
-                if next_left % 2 == 1 && i + 1 < left.len() && j + 1 < right.len() {
+                if next_left % 2 == 1 && (i + 1 < left.len() || j + 1 < right.len()) {
                     cell.traces.push((Trace::Level(next_left / 2), [left[i], right[j]]));
                 }
             }
