@@ -3,7 +3,7 @@
 
 use super::arcs::Arc;
 use super::facet::{END, Facet, FacetId, Kind};
-use super::levels::Levels;
+use super::levels::{LEVEL_SNAP, Levels};
 use super::trim::Sheet;
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -87,10 +87,12 @@ impl Cut<'_> {
         let curve = Curve::new(sheet, sector, other, 0.5 * (taus[0] + taus[1]));
         let mut points: Vec<(f64, DVec3)> = vec![(taus[0], ends[0])];
         let between = |tau: f64| (tau > taus[0] && tau < taus[1]) || (tau < taus[0] && tau > taus[1]);
-        let turns = between(curve.middle);
+        // Near an end the end itself is the turning point: the heights differ in the square of the distance.
+        let turning = curve.point(curve.middle);
+        let turns = between(curve.middle) && ends.iter().all(|end| end.distance(turning) > LEVEL_SNAP);
         let mut stops = Vec::new();
         if turns {
-            stops.push((curve.middle, curve.point(curve.middle)));
+            stops.push((curve.middle, turning));
         }
         stops.push((taus[1], ends[1]));
         for (tau, point) in stops {

@@ -31,6 +31,10 @@ const CHORD_SHARE: f64 = 1.0 / 3.0;
 /// How far beyond the outer distance the sheet is followed, relative to its depth there and at least this many length units.
 const BEYOND_REACH: f64 = 1e-3;
 
+/// The end of the slope is taken this much lower (length units): a crease that runs exactly there is then the end on both of its
+/// sides alike.
+const END_TIE: f64 = 1e-9;
+
 /// Why there is no surface. Places are plan coordinates in the world.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SurfaceError {
@@ -279,7 +283,9 @@ impl Ends {
                 if end >= top {
                     return Err(SurfaceError::NothingToBuild { end: z, low, high, rising: design.sheet == SheetKind::Rising });
                 }
-                Self { closure: end, lowest: end, top, reach: None }
+                // Where the line itself ends on that elevation, the elevation must stay what it is.
+                let touches = network.nodes.iter().any(|p| (p.z - end).abs() <= levels::LEVEL_SNAP);
+                Self { closure: if touches { end } else { end - END_TIE }, lowest: end, top, reach: None }
             }
             Extent::Height(h) => at_reach(h / k),
             Extent::Distance(d) => at_reach(d),

@@ -32,7 +32,7 @@ impl Hairpin {
 /// Nothing is buried as long as the ends keep `Δz < k·d`.
 #[test]
 fn hairpin_below_the_limit() {
-    for slack in [1.0, 0.9] {
+    for slack in [1.0, 0.9, 0.5, 1e-2, 1e-5] {
         let (d, g, c, k) = (10.0, 0.1, 0.2, 0.5);
         let hairpin = Hairpin { l: ((1.0 - slack * 0.5) * k * d - c * d) / (2.0 * g), d, g, c, k };
         let given = line(&[open(&hairpin.points())]);
