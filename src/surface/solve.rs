@@ -44,8 +44,11 @@ pub(super) fn solve(sheet: &Sheet, watch: &dyn Watch) -> Result<Solved, SurfaceE
         solved = Solved { closure, arcs };
         attempt += 1;
         let before = hints.len();
-        hints.extend(solved.seen_at_the_end(sheet));
-        hints.extend(solved.beside_crossing_ends(sheet));
+        let mut suspects = solved.seen_at_the_end(sheet);
+        suspects.extend(solved.beside_crossing_ends(sheet));
+        // A suspect that reaches the end all the same tells nothing new.
+        suspects.retain(|&(f, tau)| sheet.trim_facet(f, tau).partner != END);
+        hints.extend(suspects);
         hints.extend(solved.beside_unpaired(sheet));
         hints.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         hints.dedup();
