@@ -126,9 +126,9 @@ fn certificate(page: &mut Page<'_>, c: &Certificate) {
     page.words("manifold", yes(c.manifold));
     page.words("line kept as edges", yes(c.input_edges_kept));
     page.count("overlaps", c.overlaps);
-    page.figure("slope deviation", &short(c.slope_max_deviation_deg), "°");
-    page.figure("  planar strips", &short(c.strip_max_deviation_deg), "°");
-    page.figure("  cone sectors", &short(c.sector_max_deviation_deg), "°");
+    page.figure("slope deviation", &angle(c.slope_max_deviation_deg), "°");
+    page.figure("  planar strips", &angle(c.strip_max_deviation_deg), "°");
+    page.figure("  cone sectors", &angle(c.sector_max_deviation_deg), "°");
     page.count("  beyond 0.1°", c.triangles_beyond_0_1deg);
     page.figure("height deviation", &short(c.height_max_deviation), page.unit);
 }
@@ -154,6 +154,12 @@ fn printable(text: &str) -> String {
 /// The four forms of a slope.
 fn forms(slope: SlopeFigures) -> String {
     Slope::from_ratio(slope.ratio).map_or_else(|| slope.ratio.to_string(), Slope::forms)
+}
+
+/// A deviation in degrees. What is only rounding has no digits worth printing, and they differ between machines.
+fn angle(degrees: f64) -> String {
+    const ROUNDING: f64 = 1e-7;
+    if degrees > 0.0 && degrees < ROUNDING { format!("< {ROUNDING:e}") } else { short(degrees) }
 }
 
 /// A small figure: four decimals, or its order of magnitude.

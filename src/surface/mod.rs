@@ -33,7 +33,7 @@ const BEYOND_REACH: f64 = 1e-3;
 
 /// The end of the slope is taken this much lower (length units): a crease that runs exactly there is then the end on both of its
 /// sides alike.
-const END_TIE: f64 = 1e-9;
+const END_TIE: f64 = 1e-11;
 
 /// Why there is no surface. Places are plan coordinates in the world.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -220,7 +220,11 @@ pub fn build(line: &Line, design: &Design, reference: Option<f64>, watch: &dyn W
     let solved = solve::solve(&sheet, watch)?;
     go_on("mesh")?;
     let cut = Cut { levels: &levels, chord: CHORD_SHARE * design.tolerance, reach: ends.reach };
-    let slopes = emit::emit(&sheet, &solved.closure, &solved.arcs, &cut);
+    let mut slopes = emit::emit(&sheet, &solved.closure, &solved.arcs, &cut);
+    for p in slopes.points.iter_mut().filter(|p| (p.z - ends.closure).abs() <= END_TIE) {
+        // Undoes [`END_TIE`]: the slope ends where it was asked to. (Ends at a distance lie well above the closure.)
+        p.z = ends.lowest;
+    }
     if let Some(&f) = slopes.failed.first() {
         let p = network.world(sheet.facet(f).foot(0.0));
         return Err(SurfaceError::Unsound { what: format!("a strip at ({:.3}, {:.3}) could not be triangulated", p.x, p.y) });

@@ -1,8 +1,9 @@
 //! Lines that lie below the slope of another part: stretches, depths and the slope that would free them.
 
-use crate::common::build::{design, line, on_both_sheets, open};
+use crate::common::build::{design, line, on_both_sheets, open, rectangle};
 use crate::common::measure::{close, height, length};
-use slopegen::model::{CurveKind, Extent};
+use slopegen::model::{CurveKind, Design, Extent, Side};
+use slopegen::surface::{self, SurfaceError};
 
 /// Places on the line: the engine finds entries by crossing straight facets.
 const EXACT: f64 = 1e-9;
@@ -104,5 +105,20 @@ fn crossing_roads() {
             }
             close(height(surface, 0.0, 1.0).expect("inside"), h + g, EXACT, "upper line");
         });
+    }
+}
+
+/// Two level pads 4 apart, 5 higher and lower, slope 1:2: the slope of the upper one is 5 − 4/2 = 3 above the lower one's edge.
+/// The lower platform would have to be cut out of it; that is refused with both names, never drawn over.
+#[test]
+fn a_covered_platform_is_refused() {
+    let pads = line(&[rectangle([0.0, 0.0, 10.0], 20.0, 20.0), rectangle([24.0, 0.0, 5.0], 20.0, 20.0)]);
+    let wanted = Design { side_of_rings: Side::Outside, ..design(0.5, Extent::Elevation(0.0)) };
+    match surface::build(&pads, &wanted, None, &()) {
+        Err(SurfaceError::PlatformCovered { x, what, .. }) => {
+            close(x, 24.0, EXACT, "place of the greatest depth");
+            assert!(what.contains("up to 3.000 below"), "{what}");
+        }
+        other => panic!("{:?}", other.map(|s| s.certificate)),
     }
 }
