@@ -5,10 +5,10 @@
 //! is handed to the two others that meet there, so that what one facet missed another tells. Rounds run until nobody learns
 //! anything new; facets are independent within a round.
 
-use super::facet::{Crossing, END, FacetId, Kind, Lateral};
+use super::facet::{END, FacetId, Kind, Lateral};
+use super::junction;
 use super::network::twin;
 use super::trim::{Sheet, Tip};
-use crate::kernel::dd::DdVec2;
 use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
@@ -172,7 +172,7 @@ fn pending_entry(pending: &mut Vec<(FacetId, Vec<VertexId>)>, f: FacetId) -> &mu
 }
 
 /// The strip on the other side of a strip's edge: the partner of its covered stretches. Sectors have none.
-fn twin_strip(sheet: &Sheet, f: FacetId) -> FacetId {
+pub(super) fn twin_strip(sheet: &Sheet, f: FacetId) -> FacetId {
     match sheet.facet(f).kind {
         Kind::Strip(h) => twin(h),
         Kind::Sector(_) => END,
@@ -406,10 +406,10 @@ impl<'a> State<'a> {
             let (tau, _) = self.sheet.facet(f).parameters(self.vertices[vertex as usize].truncate());
             return Between::Vertex { tau: tau.clamp(a.tau, b.tau), left: ka, right: kb, vertex };
         }
-        let root = self.root(f, ka, kb, a.tau, b.tau);
+        let root = junction::root(self.sheet, f, ka, kb, a.tau, b.tau);
         let tau = root.unwrap_or(0.5 * (a.tau + b.tau));
         if width > 0.0 && root.is_some() {
-            let x = self.polish(f, ka, kb, tau);
+            let x = junction::polish(self.sheet, f, ka, kb, tau);
             let plan = x.to_f64();
             let (exact_tau, _) = self.sheet.facet(f).parameters(plan);
             let slack = 1e-7 * (1.0 + width);
@@ -505,103 +505,4 @@ impl<'a> State<'a> {
             None => self.hint_by_looking(f, a, b, tau),
         }
     }
-
-    /// Crossing of ruling `τ` of `f` with partner `k`, so that the nearer partner has the smaller quotient. Covered stretches
-    /// (partner: the twin) count from where the other partner's crossing has reached the foot.
-    fn crossing(&self, f: FacetId, k: FacetId, tau: f64) -> Crossing {
-        let facet = self.sheet.facet(f);
-        self.sheet.crossing(facet.foot(tau), facet.ruling(tau), k)
-    }
-
-    /// Parameter between `lo` and `hi` at which `f` meets `ka` (nearer at `lo`) and `kb` (nearer at `hi`) at once.
-    fn root(&self, f: FacetId, ka: FacetId, kb: FacetId, lo: f64, hi: f64) -> Option<f64> {
-        let hidden = twin_strip(self.sheet, f);
-        let strip = self.sheet.facet(f).is_strip();
-        let excess = |tau: f64| {
-            if strip && kb == hidden {
-                return -self.crossing(f, ka, tau).num;
-            }
-            if strip && ka == hidden {
-                return self.crossing(f, kb, tau).num;
-            }
-            let (a, b) = (self.crossing(f, ka, tau), self.crossing(f, kb, tau));
-            a.num * b.den - b.num * a.den
-        };
-        bracket(excess, lo, hi)
-    }
-
-    /// The point where `f`, `ka` and `kb` have the same height, in double-double, from a first guess on ruling `τ`.
-    fn polish(&self, f: FacetId, ka: FacetId, kb: FacetId, tau: f64) -> DdVec2 {
-        const STEPS: usize = 8;
-        let facet = self.sheet.facet(f);
-        let foot = facet.foot(tau);
-        let covered = twin_strip(self.sheet, f);
-        let length = |k: FacetId| {
-            if facet.is_strip() && k == covered { 0.0 } else { self.crossing(f, k, tau).length() }
-        };
-        let (ra, rb) = (length(ka), length(kb));
-        let reach = ((foot.z - self.sheet.end) / self.sheet.k).max(0.0);
-        let r = if ra.is_finite() && rb.is_finite() { 0.5 * (ra + rb) } else { ra.min(rb) };
-        let mut x = DdVec2::from(facet.point(tau, r.min(2.0 * reach)).truncate());
-        for _ in 0..STEPS {
-            let own = self.sheet.height_dd(f, x);
-            let (fa, fb) = (own - self.sheet.height_dd(ka, x), own - self.sheet.height_dd(kb, x));
-            let gradient = self.sheet.gradient_dd(f, x);
-            let (ga, gb) =
-                ((gradient - self.sheet.gradient_dd(ka, x)).to_f64(), (gradient - self.sheet.gradient_dd(kb, x)).to_f64());
-            let det = ga.perp_dot(gb);
-            let (ra, rb) = (fa.to_f64(), fb.to_f64());
-            let step = glam::DVec2::new(ra * gb.y - rb * ga.y, rb * ga.x - ra * gb.x) / det;
-            if !step.is_finite() {
-                break;
-            }
-            x = x - DdVec2::from(step);
-            if step.abs().max_element() <= 1e-24 * (1.0 + x.to_f64().abs().max_element()) {
-                break;
-            }
-        }
-        x
-    }
-}
-
-/// A zero of `f` between `lo`, where it must not be positive, and `hi`, where it must not be negative; `None` without that
-/// change of sign. Illinois steps with bisection every fourth; ends when the bracket cannot shrink.
-fn bracket(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> Option<f64> {
-    const STEPS: usize = 100;
-    let (mut at_lo, mut at_hi) = (f(lo), f(hi));
-    if at_lo > 0.0 || at_hi < 0.0 {
-        return None;
-    }
-    if at_lo == 0.0 || at_hi == 0.0 {
-        return Some(if at_lo == 0.0 { lo } else { hi });
-    }
-    let width = hi - lo;
-    let mut last_side = 0;
-    for step in 0..STEPS {
-        let mut mid = (lo * at_hi - hi * at_lo) / (at_hi - at_lo);
-        if step % 4 == 3 || !(mid > lo && mid < hi) {
-            mid = 0.5 * (lo + hi);
-        }
-        if !(mid > lo && mid < hi) || hi - lo <= f64::EPSILON * width {
-            break;
-        }
-        let value = f(mid);
-        if value == 0.0 {
-            return Some(mid);
-        }
-        if value < 0.0 {
-            (lo, at_lo) = (mid, value);
-            if last_side == -1 {
-                at_hi *= 0.5;
-            }
-            last_side = -1;
-        } else {
-            (hi, at_hi) = (mid, value);
-            if last_side == 1 {
-                at_lo *= 0.5;
-            }
-            last_side = 1;
-        }
-    }
-    Some(0.5 * (lo + hi))
 }

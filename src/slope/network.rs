@@ -1,12 +1,10 @@
 //! The line as a plane graph: nodes, edges with two sides, and what meets at each node.
 
+use super::noding::{Segments, weld};
 use super::simplify::{self, Chord};
 use crate::kernel::frame::Frame;
-use crate::kernel::segment_tree::SegmentTree;
 use crate::model::{Design, Line, Role, Sheet, Side};
 use glam::{DVec2, DVec3};
-use kiddo::{ImmutableKdTree, SquaredEuclidean};
-use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 /// Vertices closer than this (length units, 3D) are one vertex.
@@ -226,138 +224,6 @@ fn plan_box(line: &Line) -> (DVec2, DVec2) {
         .iter()
         .flat_map(|c| &c.vertices)
         .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(lo, hi), v| (lo.min(v.truncate()), hi.max(v.truncate())))
-}
-
-/// Brings all vertices into the local frame of the falling sheet and makes one node of those that coincide.
-///
-/// Returns the nodes and the node of every vertex by chain.
-fn weld(line: &Line, frame: &Frame, sign: f64) -> (Vec<DVec3>, Vec<Vec<u32>>) {
-    let local = |vertex: DVec3| {
-        let p = frame.to_local(vertex);
-        DVec3::new(p.x, p.y, sign * p.z)
-    };
-    let all: Vec<DVec3> = line.chains.iter().flat_map(|c| &c.vertices).map(|&v| local(v)).collect();
-    let first = first_within(line, &all);
-    let mut points: Vec<DVec3> = Vec::with_capacity(all.len());
-    let mut node_of: Vec<u32> = Vec::with_capacity(all.len());
-    for (i, &p) in all.iter().enumerate() {
-        let node = if first[i] < i {
-            node_of[first[i]]
-        } else {
-            points.push(p);
-            points.len() as u32 - 1
-        };
-        node_of.push(node);
-    }
-    let mut rest = node_of.as_slice();
-    let of_vertex = line.chains.iter().map(|c| {
-        let (nodes, tail) = rest.split_at(c.vertices.len());
-        rest = tail;
-        nodes.to_vec()
-    });
-    let of_vertex = of_vertex.collect();
-    (points, of_vertex)
-}
-
-/// For each point the first one within the weld distance, itself at the latest.
-fn first_within(line: &Line, points: &[DVec3]) -> Vec<usize> {
-    let own: Vec<usize> = (0..points.len()).collect();
-    if line.chains.len() == 1 && line.chains[0].closed() {
-        // A simple ring does not meet itself.
-        return own;
-    }
-    let coordinates: Vec<[f64; 3]> = points.iter().map(|p| p.to_array()).collect();
-    // Validated coordinates are finite, the only thing the tree could object to.
-    let Ok(tree) = ImmutableKdTree::<f64, 3>::new_from_slice(&coordinates) else { return own };
-    own.into_par_iter()
-        .map(|i| {
-            let near =
-                tree.query(&coordinates[i]).within::<SquaredEuclidean<f64>>(WELD_DISTANCE * WELD_DISTANCE).unsorted().execute();
-            near.into_iter().map(|n| n.item as usize).min().unwrap_or(i).min(i)
-        })
-        .collect()
-}
-
-/// The segments of the line with the nodes that lie on them: (place, node), from start to end.
-struct Segments {
-    by_chain: Vec<Vec<Vec<(f64, u32)>>>,
-}
-
-impl Segments {
-    fn new(line: &Line, of_vertex: &[Vec<u32>]) -> Self {
-        let by_chain = line
-            .chains
-            .iter()
-            .zip(of_vertex)
-            .map(|(chain, nodes)| {
-                (0..chain.segment_count()).map(|i| vec![(0.0, nodes[i]), (1.0, nodes[(i + 1) % nodes.len()])]).collect()
-            })
-            .collect();
-        Self { by_chain }
-    }
-
-    /// Adds nodes where segments meet at the same height: at a crossing, or where one ends on another. Crossings at different
-    /// heights stay: there one line lies below the slope of the other.
-    fn noded(mut self, points: &mut Vec<DVec3>, line: &Line) -> Self {
-        if line.chains.len() == 1 && line.chains[0].closed() {
-            // A simple ring does not meet itself.
-            return self;
-        }
-        let flat: Vec<(usize, usize)> =
-            self.by_chain.iter().enumerate().flat_map(|(c, list)| (0..list.len()).map(move |i| (c, i))).collect();
-        let ends: Vec<[u32; 2]> = flat.iter().map(|&(c, i)| [self.by_chain[c][i][0].1, self.by_chain[c][i][1].1]).collect();
-        let plan: Vec<(DVec2, DVec2)> =
-            ends.iter().map(|e| (points[e[0] as usize].truncate(), points[e[1] as usize].truncate())).collect();
-        let mut marks: Vec<(usize, f64, u32)> = Vec::new();
-        SegmentTree::new(&plan).pairs(|i, j| {
-            let mut touching = false;
-            for (s, t) in [(i, j), (j, i)] {
-                for node in ends[s].into_iter().filter(|node| !ends[t].contains(node)) {
-                    if let Some(at) = on_segment(points[node as usize], ends[t].map(|v| points[v as usize])) {
-                        marks.push((t, at, node));
-                        touching = true;
-                    }
-                }
-            }
-            let joined = ends[i].iter().any(|v| ends[j].contains(v));
-            if !touching
-                && !joined
-                && let Some((at, p)) = meeting(ends[i].map(|v| points[v as usize]), ends[j].map(|v| points[v as usize]))
-            {
-                let node = points.len() as u32;
-                points.push(p);
-                marks.extend([(i, at[0], node), (j, at[1], node)]);
-            }
-            true
-        });
-        for (s, at, node) in marks {
-            let (c, i) = flat[s];
-            self.by_chain[c][i].push((at, node));
-        }
-        for list in self.by_chain.iter_mut().flatten().filter(|list| list.len() > 2) {
-            list.sort_by(|a, b| a.0.total_cmp(&b.0));
-            list.dedup_by_key(|m| m.1);
-        }
-        self
-    }
-}
-
-/// Where point `p` lies on a segment between its ends, within the weld distance.
-fn on_segment(p: DVec3, [a, b]: [DVec3; 2]) -> Option<f64> {
-    let t = (p - a).dot(b - a) / (b - a).length_squared();
-    let inside = t > 0.0 && t < 1.0 && p.distance(a).min(p.distance(b)) > WELD_DISTANCE;
-    (inside && p.distance(a.lerp(b, t)) <= WELD_DISTANCE).then_some(t)
-}
-
-/// Where two segments cross in plan at the same height: the places on both, and the point.
-fn meeting([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> Option<([f64; 2], DVec3)> {
-    let (u, v, w) = ((b - a).truncate(), (d - c).truncate(), (c - a).truncate());
-    let det = u.perp_dot(v);
-    let at = [w.perp_dot(v) / det, w.perp_dot(u) / det];
-    // Parallel segments give no number here; they meet at ends, if at all.
-    let crosses = at.iter().all(|t| *t > 0.0 && *t < 1.0);
-    let (p, q) = (a.lerp(b, at[0]), c.lerp(d, at[1]));
-    (crosses && (p.z - q.z).abs() <= WELD_DISTANCE).then_some((at, p))
 }
 
 /// The pieces of line between nodes, each once, with the sides on which a slope is wanted.
