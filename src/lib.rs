@@ -4,14 +4,17 @@
 //! above it in this list; `pipeline` alone knows the order. See `docs/architecture.md`.
 
 pub mod cli;
+pub mod ground;
 pub mod kernel;
 pub mod mesh;
 pub mod model;
+pub mod overlay;
 pub mod pipeline;
 pub mod read;
 pub mod report;
 pub mod sheet;
 pub mod slope;
 pub mod surface;
+pub mod terrain;
 pub mod validate;
 pub mod write;

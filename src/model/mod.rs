@@ -5,6 +5,7 @@ pub mod line;
 pub mod notation;
 pub mod note;
 pub mod slope;
+pub mod terrain;
 pub mod tin;
 
 pub use design::{Design, Extent, Sheet, Side};
@@ -12,4 +13,5 @@ pub use line::{Chain, Line, Place, Role};
 pub use notation::SlopeError;
 pub use note::{Defect, Defects, Note};
 pub use slope::Slope;
+pub use terrain::Terrain;
 pub use tin::{CurveKind, LineFeature, Part, Tin};

@@ -1,0 +1,1 @@
+//! Existing ground and the design together: where the slopes meet the ground, the finished ground, cut and fill.

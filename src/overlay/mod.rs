@@ -1,0 +1,1 @@
+//! Two triangulated surfaces over each other: exact volumes over their common refinement.

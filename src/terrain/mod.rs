@@ -1,0 +1,1 @@
+//! Raw ground → a checked TIN: points are triangulated, faces turned up, defects told with their places.
