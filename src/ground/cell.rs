@@ -55,7 +55,7 @@ impl Side {
 }
 
 /// Heights up to this (length units) count as none: the design then lies on the ground there.
-pub(crate) const TOUCH: f64 = 1e-7;
+pub(crate) const TOUCH: f64 = 1e-8;
 
 /// On which side of the ground a corner lies.
 pub(crate) fn class(h: f64) -> i8 {

@@ -2,7 +2,6 @@
 
 use crate::model::Terrain;
 use glam::{DVec2, DVec3};
-use rustc_hash::FxHashMap;
 
 /// No neighbour.
 pub(crate) const NONE: u32 = u32::MAX;
@@ -44,11 +43,6 @@ impl Patch {
         let neighbours = neighbours(vertices.len(), &triangles);
         let bins = Bins::new(&vertices, &triangles);
         Self { vertices, vertex_of, triangles, triangle_of: chosen, neighbours, bins }
-    }
-
-    /// Corners of triangle `t` in plan.
-    pub(crate) fn plan(&self, t: u32) -> [DVec2; 3] {
-        self.triangles[t as usize].map(|v| self.vertices[v as usize].truncate())
     }
 
     /// Ends of side `j` of triangle `t`, lower vertex first.

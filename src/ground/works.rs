@@ -18,6 +18,18 @@ pub(crate) struct Border {
     pub(crate) b: u32,
     /// What it lies on.
     pub(crate) side: Side,
+    /// Its ends, on the design, local frame.
+    pub(crate) points: [DVec3; 2],
+    /// Greatest height between design and ground on it.
+    pub(crate) height: f64,
+}
+
+impl Border {
+    fn new((a, b): (u32, u32), from: &Corner, to: &Corner) -> Self {
+        let points = [from, to].map(|c| c.at.extend(c.z));
+        let height = from.h.abs().max(to.h.abs());
+        Self { from: from.label, to: to.label, a, b, side: from.side, points, height }
+    }
 }
 
 /// Where the works stop although the design has not met the ground.
@@ -192,7 +204,7 @@ impl<'a, S: Sink> Flood<'a, S> {
             if flat[0] {
                 self.note(a, b, kept, n);
             }
-            let border = Border { from: corner.label, to: next.label, a, b, side: corner.side };
+            let border = Border::new((a, b), corner, next);
             if corner.side == Side::INSIDE {
                 self.works.daylight.push(border);
             } else if flat == [true, true] {
@@ -263,7 +275,7 @@ impl<'a, S: Sink> Flood<'a, S> {
         split_sides(self.shape, self.patch, (a, b), corners, &mut split);
         for (n, corner) in split.iter().enumerate() {
             let next = &split[(n + 1) % split.len()];
-            let border = Border { from: corner.label, to: next.label, a, b, side: corner.side };
+            let border = Border::new((a, b), corner, next);
             let on_line = |side: Side| side.design.is_some_and(|i| self.shape.neighbours[a as usize][i as usize] == NONE);
             if class(corner.h) == 0 && (on_line(corner.side) || on_line(split[(n + split.len() - 1) % split.len()].side)) {
                 self.note(a, b, &split, n);

@@ -15,7 +15,11 @@ const MOST_CORNERS: usize = 24;
 /// [`RegionError`] if the edges do not bound a region.
 pub fn fill(points: &[DVec3], edges: &[[u32; 2]], keep: impl Fn(u32) -> bool) -> Result<Vec<[u32; 3]>, RegionError> {
     let mut loops = Vec::new();
-    for mut ring in chain(edges).ok_or_else(|| RegionError::Open(edges.first().map_or(DVec3::ZERO, |e| points[e[0] as usize])))? {
+    let (rings, open) = self::loops(edges);
+    if let Some(&v) = open.first() {
+        return Err(RegionError::Open(points.get(v as usize).copied().unwrap_or(DVec3::NAN)));
+    }
+    for mut ring in rings {
         ring.retain(|&v| keep(v));
         ring.dedup();
         while ring.len() > 1 && ring[0] == ring[ring.len() - 1] {
@@ -58,14 +62,14 @@ fn cancel(edges: &mut Vec<[u32; 2]>) {
     });
 }
 
-/// Loops of directed edges; `None` if one does not close.
-fn chain(edges: &[[u32; 2]]) -> Option<Vec<Vec<u32>>> {
+/// Simple loops of directed edges, and the vertices where paths end that do not close. Edges that run against each other cancel.
+pub fn loops(edges: &[[u32; 2]]) -> (Vec<Vec<u32>>, Vec<u32>) {
     let mut edges = edges.to_vec();
     cancel(&mut edges);
     let mut used = vec![false; edges.len()];
     let mut order: Vec<usize> = (0..edges.len()).collect();
     order.sort_by_key(|&i| edges[i]);
-    let mut loops = Vec::new();
+    let (mut loops, mut open) = (Vec::new(), Vec::new());
     let mut place: FxHashMap<u32, usize> = FxHashMap::default();
     for first in 0..edges.len() {
         if used[first] {
@@ -76,23 +80,33 @@ fn chain(edges: &[[u32; 2]]) -> Option<Vec<Vec<u32>>> {
         place.insert(edges[first][0], 0);
         let mut ring = vec![edges[first][0]];
         let mut at = edges[first][1];
-        while at != edges[first][0] {
+        let closed = loop {
+            if at == edges[first][0] {
+                break true;
+            }
             // A loop that comes back to a vertex of its own is cut off there, so that every loop is simple.
             if let Some(&n) = place.get(&at) {
-                let closed = ring.split_off(n);
-                closed.iter().for_each(|v| drop(place.remove(v)));
-                loops.push(closed);
+                let cut_off = ring.split_off(n);
+                for v in &cut_off {
+                    place.remove(v);
+                }
+                loops.push(cut_off);
             }
             place.insert(at, ring.len());
             ring.push(at);
             let from = order.partition_point(|&i| edges[i][0] < at);
-            let next = order[from..].iter().copied().take_while(|&i| edges[i][0] == at).find(|&i| !used[i])?;
+            let next = order[from..].iter().copied().take_while(|&i| edges[i][0] == at).find(|&i| !used[i]);
+            let Some(next) = next else { break false };
             used[next] = true;
             at = edges[next][1];
+        };
+        if closed {
+            loops.push(ring);
+        } else {
+            open.push(at);
         }
-        loops.push(ring);
     }
-    Some(loops)
+    (loops, open)
 }
 
 /// Cuts ears off a simple polygon, the best shaped first; `None` if it has too many corners or no ear is left to cut.
