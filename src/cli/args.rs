@@ -61,6 +61,17 @@ pub(super) struct BuildArgs {
     /// Take volumes against the plane at elevation Z [default: where the slopes end]
     #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = help::SURFACE)]
     pub(super) reference: Option<String>,
+    /// Cut and fill for every D along the line, with cross-sections and the running net
+    ///
+    /// Needs existing ground.
+    #[arg(long, value_name = "D", allow_negative_numbers = true, help_heading = help::SURFACE)]
+    pub(super) stations: Option<String>,
+    /// Gain in volume of soil when it is dug: 25% or 0.25
+    #[arg(long, value_name = "P", allow_hyphen_values = true, help_heading = help::SURFACE)]
+    pub(super) swell: Option<String>,
+    /// Loss in volume of soil when it is compacted, against its volume in the ground: 10% or 0.1
+    #[arg(long, value_name = "P", allow_hyphen_values = true, help_heading = help::SURFACE)]
+    pub(super) shrink: Option<String>,
     /// Refuse lines of which a part lies buried under the slope of another part
     #[arg(long, help_heading = help::SURFACE)]
     pub(super) strict: bool,

@@ -2,7 +2,7 @@
 
 use super::args::{BuildArgs, DirectionArg, FormatArg, InputArgs, Running, SampleArgs, SideArg, SlopeArgs};
 use super::number::{self, Rule};
-use crate::model::{Extent, Sheet, Side, Slope};
+use crate::model::{Bulking, Extent, Sheet, Side, Slope};
 use crate::pipeline::{Area, BuildJob, Lattice, LineInput, SampleJob, Where, Wishes};
 use crate::read::{ColumnOrder, InputFormat, ReadOptions};
 use crate::report::ReportFormat;
@@ -93,6 +93,28 @@ impl Checks {
         LineInput { path: args.input.clone(), options: ReadOptions { format, csv_order }, closed: args.closed }
     }
 
+    /// How soil changes its volume; what is not given is nought.
+    fn bulking(&mut self, args: &BuildArgs) -> Option<Bulking> {
+        let mut share = |option, text: Option<&String>, limits| {
+            text.map_or(Some(0.0), |text| self.take(number::share(option, text, &limits)))
+        };
+        let swell = share("--swell", args.swell.as_ref(), Bulking::SWELL);
+        let shrink = share("--shrink", args.shrink.as_ref(), Bulking::SHRINK);
+        let given = args.swell.is_some() || args.shrink.is_some();
+        swell.zip(shrink).filter(|_| given).and_then(|(swell, shrink)| Bulking::new(swell, shrink))
+    }
+
+    /// Refuses options that mean nothing without existing ground.
+    fn needs_ground(&mut self, options: &[(&str, Option<&String>)]) {
+        for (option, text) in options {
+            if let Some(text) = text {
+                self.0.push(format!(
+                    "`{option}` needs existing ground\n  --> {option} {text}\n   = help: give the ground with `--terrain`"
+                ));
+            }
+        }
+    }
+
     fn finish<T>(self, job: Option<T>) -> Result<T, UsageErrors> {
         match job {
             Some(job) if self.0.is_empty() => Ok(job),
@@ -117,6 +139,13 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     let interval = checks.number("--interval", args.interval.as_ref(), Rule::Positive);
     let tolerance = checks.number("--tolerance", Some(&args.tolerance), Rule::AtLeast(LEAST_LENGTH));
     let reference = checks.number("--reference", args.reference.as_ref(), Rule::Coordinate);
+    let stations = checks.number("--stations", args.stations.as_ref(), Rule::AtLeast(LEAST_LENGTH));
+    let bulking = checks.bulking(args);
+    checks.needs_ground(&[
+        ("--stations", args.stations.as_ref()),
+        ("--swell", args.swell.as_ref()),
+        ("--shrink", args.shrink.as_ref()),
+    ]);
     let side = args.side.map(|side| match side {
         SideArg::Left => Side::Left,
         SideArg::Right => Side::Right,
@@ -149,6 +178,8 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         input,
         wishes: Wishes { slope, sheet, side, extent: extent.into_iter().flatten().next(), interval, tolerance },
         reference,
+        stations,
+        bulking,
         strict: args.strict,
         meshes,
         lines,

@@ -2,6 +2,7 @@
 
 use super::watch::{CHECKING, Observer, READING, Stopwatch, WRITING};
 use super::{BuriedError, Error, LineInput, Wishes, check_steepness, figures, read_line};
+use crate::model::Bulking;
 use crate::report::{Report, ReportFormat};
 use crate::surface;
 use crate::write::{Delivery, MeshFormat, Outputs, Target, WriteError, write_lines};
@@ -15,6 +16,10 @@ pub struct BuildJob {
     pub wishes: Wishes,
     /// Elevation of the plane the volumes are taken against; `None`: where the slopes end.
     pub reference: Option<f64>,
+    /// Spacing of the stations that volumes are told apart by; with existing ground only.
+    pub stations: Option<f64>,
+    /// How the soil changes its volume, if that is to be reckoned with; with existing ground only.
+    pub bulking: Option<Bulking>,
     /// Refuse lines with buried stretches.
     pub strict: bool,
     /// Where meshes go.
