@@ -1,7 +1,7 @@
 //! One cell of the common refinement: a triangle clipped by another.
 
 use super::fabric::double_area;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 /// A point in the coordinates of a [`Patch`]: three that are positive inside and add up to its double area, and the height of the
 /// patch above the other mesh, times the double area. All four are linear in plan.
@@ -38,7 +38,6 @@ impl Patch {
         [s, t, self.double_area - s - t, s * self.first.z + t * self.second.z - from.z * self.double_area]
     }
 
-
     /// Point of the patch above a corner.
     pub(super) fn point(&self, c: &Corner) -> DVec3 {
         self.corners[0] + (self.first * c[0] + self.second * c[1]) / self.double_area
@@ -51,6 +50,32 @@ pub(super) const CUT: u8 = 3;
 /// Most corners of a ring: three, one more for each of three cuts, and one for the split at height nought.
 const MOST: usize = 8;
 
+/// The part of a triangle strictly inside the patch, `None` if there is none. The result is in one of the two rings.
+#[inline]
+pub(super) fn clip<'r>(triangle: &[Corner; 3], mut ring: &'r mut Ring, mut spare: &'r mut Ring) -> Option<&'r Ring> {
+    let [p, q, r] = [outside(&triangle[0]), outside(&triangle[1]), outside(&triangle[2])];
+    if p & q & r != 0 {
+        return None;
+    }
+    ring.corners[..3].copy_from_slice(triangle);
+    ring.edges[..3].copy_from_slice(&[0, 1, 2]);
+    ring.len = 3;
+    let planes = p | q | r;
+    if planes & 1 != 0 {
+        ring.cut::<0>(spare);
+        std::mem::swap(&mut ring, &mut spare);
+    }
+    if planes & 2 != 0 {
+        ring.cut::<1>(spare);
+        std::mem::swap(&mut ring, &mut spare);
+    }
+    if planes & 4 != 0 {
+        ring.cut::<2>(spare);
+        std::mem::swap(&mut ring, &mut spare);
+    }
+    (ring.len > 0).then_some(ring)
+}
+
 /// A convex polygon, counter-clockwise, that knows where its edges come from. Edge `i` runs from corner `i` to the next.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ring {
@@ -62,57 +87,26 @@ pub(super) struct Ring {
 impl Ring {
     pub(super) const EMPTY: Self = Self { len: 0, corners: [[0.0; 4]; MOST], edges: [0; MOST] };
 
-    /// The part of a triangle strictly inside the patch; `false` if there is none. `self` is the result, `spare` scratch.
-    #[inline]
-    pub(super) fn clip(&mut self, triangle: &[Corner; 3], spare: &mut Self) -> bool {
-        let [p, q, r] = triangle.map(|c| outside(&c));
-        if p & q & r != 0 {
-            return false;
-        }
-        self.corners[..3].copy_from_slice(triangle);
-        self.edges[..3].copy_from_slice(&[0, 1, 2]);
-        self.len = 3;
-        let planes = p | q | r;
-        if planes & 1 != 0 {
-            self.cut::<0>(spare);
-            *self = *spare;
-        }
-        if planes & 2 != 0 {
-            self.cut::<1>(spare);
-            *self = *spare;
-        }
-        if planes & 4 != 0 {
-            self.cut::<2>(spare);
-            *self = *spare;
-        }
-        self.len > 0
-    }
-
     /// The part where coordinate `K` is positive.
+    ///
+    /// Without branches on signs, which nothing can predict: every corner and every crossing is written, and what does not
+    /// belong is written over by the next.
     #[inline]
     fn cut<const K: usize>(&self, out: &mut Self) {
-        out.len = 0;
-        for i in 0..self.len {
-            let (here, next) = (&self.corners[i], &self.corners[if i + 1 == self.len { 0 } else { i + 1 }]);
-            if here[K] > 0.0 {
-                out.push(*here, self.edges[i]);
-                if next[K] <= 0.0 {
-                    out.push(crossing::<K>(here, next), CUT + K as u8);
-                }
-            } else if next[K] > 0.0 {
-                out.push(crossing::<K>(next, here), self.edges[i]);
-            }
+        // Never reached by more than `MOST` corners; the mask is cheaper than a check.
+        const ROOM: usize = MOST - 1;
+        let mut len = 0;
+        for i in 0..self.len.min(MOST) {
+            let (here, next) = (&self.corners[i], &self.corners[if i + 1 == self.len { 0 } else { i + 1 } & ROOM]);
+            let (stays, comes) = (here[K] > 0.0, next[K] > 0.0);
+            out.corners[len & ROOM] = *here;
+            out.edges[len & ROOM] = self.edges[i];
+            len += usize::from(stays);
+            out.corners[len & ROOM] = crossing::<K>(here, next);
+            out.edges[len & ROOM] = if stays { CUT + K as u8 } else { self.edges[i] };
+            len += usize::from(stays != comes);
         }
-    }
-
-    #[inline]
-    fn push(&mut self, corner: Corner, edge: u8) {
-        // There is always room, see `MOST`; what cannot happen must not be a panic.
-        if self.len < MOST {
-            self.corners[self.len] = corner;
-            self.edges[self.len] = edge;
-            self.len += 1;
-        }
+        out.len = len;
     }
 
     /// The part where the height is positive.
@@ -166,13 +160,15 @@ fn outside(c: &Corner) -> u8 {
     u8::from(c[0] <= 0.0) | u8::from(c[1] <= 0.0) << 1 | u8::from(c[2] <= 0.0) << 2
 }
 
-/// Where coordinate `K` is nought between a corner inside and one outside. The same from both sides of an edge.
+/// Where coordinate `K` is nought between two corners of opposite sign. The same to the last bit from both ends of an edge; for
+/// corners of one sign the result means nothing.
 #[inline]
-fn crossing<const K: usize>(inside: &Corner, outside: &Corner) -> Corner {
-    let share = inside[K] / (inside[K] - outside[K]);
+fn crossing<const K: usize>(here: &Corner, next: &Corner) -> Corner {
+    let inverse = 1.0 / (next[K] - here[K]);
+    let (a, b) = (next[K] * inverse, -here[K] * inverse);
     let mut c = [0.0; 4];
     for i in 0..4 {
-        c[i] = inside[i] + (outside[i] - inside[i]) * share;
+        c[i] = here[i] * a + next[i] * b;
     }
     c[K] = 0.0;
     c

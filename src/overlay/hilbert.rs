@@ -27,7 +27,7 @@ pub(super) fn sort(points: &[DVec3], ids: &mut [u32]) {
         u64::from(index(q.x as u32, q.y as u32)) << 32 | u64::from(i)
     };
     let mut keys: Vec<u64> = ids.iter().map(|&i| key(i)).collect();
-    keys.sort_unstable();
+    sort_by_place(&mut keys);
     for (id, key) in ids.iter_mut().zip(&keys) {
         *id = *key as u32;
     }
@@ -37,6 +37,31 @@ pub(super) fn sort(points: &[DVec3], ids: &mut [u32]) {
             sort(points, &mut ids[from..from + run.len()]);
         }
         from += run.len();
+    }
+}
+
+/// Sorts keys whose lower halves ascend by their upper halves: three stable rounds of eleven bits.
+fn sort_by_place(keys: &mut Vec<u64>) {
+    const BITS: u32 = 11;
+    // The rounds cost as much as their counters; the lower half holds the id, so the result is the same.
+    if keys.len() < 1 << BITS {
+        return keys.sort_unstable();
+    }
+    let mut spare = vec![0; keys.len()];
+    for shift in [32, 32 + BITS, 32 + 2 * BITS] {
+        let digit = |key: u64| (key >> shift) as usize & ((1 << BITS) - 1);
+        let mut next = [0_u32; 1 << BITS];
+        keys.iter().for_each(|&key| next[digit(key)] += 1);
+        let mut from = 0;
+        for slot in &mut next {
+            from += std::mem::replace(slot, from);
+        }
+        for &key in keys.iter() {
+            let slot = &mut next[digit(key)];
+            spare[*slot as usize] = key;
+            *slot += 1;
+        }
+        std::mem::swap(keys, &mut spare);
     }
 }
 

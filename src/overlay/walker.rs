@@ -1,7 +1,7 @@
 //! Goes through the triangles of a mesh that share plan area with a given one.
 
 use super::boxes::Box2;
-use super::cell::{CUT, Corner, Patch, Ring};
+use super::cell::{CUT, Corner, Patch, Ring, clip};
 use super::fabric::{Linked, NONE};
 use glam::{DVec2, DVec3};
 use std::ops::ControlFlow;
@@ -99,11 +99,9 @@ impl<'a> Walker<'a> {
     fn enter(&mut self, t: u32, patch: &Patch, visit: &mut impl FnMut(u32, &Ring)) -> bool {
         self.seen[t as usize] = self.round;
         let corners = self.mesh.fabric.corners(t).map(|p| patch.corner(p));
-        if !self.ring.clip(&corners, &mut self.spare) {
-            return false;
-        }
-        self.leave(t, &corners);
-        visit(t, &self.ring);
+        let Some(ring) = clip(&corners, &mut self.ring, &mut self.spare) else { return false };
+        leave(self.mesh, &self.seen, self.round, &mut self.steps, t, &corners, ring);
+        visit(t, ring);
         while let Some(Step { half, from, to }) = self.steps.pop() {
             let (t, e) = (half / 3, half as usize % 3);
             if self.seen[t as usize] == self.round {
@@ -116,27 +114,12 @@ impl<'a> Walker<'a> {
             corners[e] = from;
             corners[(e + 1) % 3] = to;
             corners[(e + 2) % 3] = patch.corner(apex);
-            if self.ring.clip(&corners, &mut self.spare) {
-                self.leave(t, &corners);
-                visit(t, &self.ring);
+            if let Some(ring) = clip(&corners, &mut self.ring, &mut self.spare) {
+                leave(self.mesh, &self.seen, self.round, &mut self.steps, t, &corners, ring);
+                visit(t, ring);
             }
         }
         true
-    }
-
-    /// Notes the neighbours across the edges that are left of triangle `t`.
-    #[inline]
-    fn leave(&mut self, t: u32, corners: &[Corner; 3]) {
-        for &e in self.ring.edges() {
-            if e >= CUT {
-                continue;
-            }
-            let e = e as usize;
-            let half = self.mesh.opposite[3 * t as usize + e];
-            if half != NONE && self.seen[half as usize / 3] != self.round {
-                self.steps.push(Step { half, from: corners[(e + 1) % 3], to: corners[e] });
-            }
-        }
     }
 
     /// A triangle at `p`, reached through neighbours; `None` if the way is barred or long. Near edges it may be the one beside.
@@ -160,5 +143,19 @@ impl<'a> Walker<'a> {
             t = entered / 3;
         }
         None
+    }
+}
+
+/// Notes the neighbours of `t` across the edges that the ring has left.
+#[inline]
+fn leave(mesh: &Linked<'_>, seen: &[u32], round: u32, steps: &mut Vec<Step>, t: u32, corners: &[Corner; 3], ring: &Ring) {
+    for &e in ring.edges() {
+        if e < CUT {
+            let e = e as usize;
+            let half = mesh.opposite[3 * t as usize + e];
+            if half != NONE && seen[half as usize / 3] != round {
+                steps.push(Step { half, from: corners[(e + 1) % 3], to: corners[e] });
+            }
+        }
     }
 }
