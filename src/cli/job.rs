@@ -200,7 +200,13 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         let format = checks.format(ReportFormat::of(&target));
         reports.extend(format.map(|format| (target, format)));
     }
-    let used = meshes.iter().chain(&finished).map(|(t, _)| t).chain(&lines).chain(reports.iter().map(|(t, _)| t)).any(|t| *t == Target::Stdout);
+    let used = meshes
+        .iter()
+        .chain(&finished)
+        .map(|(t, _)| t)
+        .chain(&lines)
+        .chain(reports.iter().map(|(t, _)| t))
+        .any(|t| *t == Target::Stdout);
     if !used && !args.running.quiet {
         reports.push((Target::Stdout, ReportFormat::Text));
     }
@@ -213,10 +219,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     });
     let job = tolerance.filter(|_| !slopes.is_empty()).map(|tolerance| BuildJob {
         input,
-        wishes: slopes
-            .into_iter()
-            .map(|(slope, sheet)| Wishes { slope, sheet, side, extent, interval, tolerance })
-            .collect(),
+        wishes: slopes.into_iter().map(|(slope, sheet)| Wishes { slope, sheet, side, extent, interval, tolerance }).collect(),
         ground,
         reference,
         stations,
