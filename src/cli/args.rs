@@ -61,6 +61,15 @@ pub(super) struct BuildArgs {
     /// Take volumes against the plane at elevation Z [default: where the slopes end]
     #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = help::SURFACE)]
     pub(super) reference: Option<String>,
+    /// Existing ground: .obj, .ply, .csv, .xyz, .txt or .asc; slopes then end where they meet it
+    #[arg(long, value_name = "FILE", help_heading = help::INPUT)]
+    pub(super) terrain: Option<PathBuf>,
+    /// Accept slopes that end without meeting the ground
+    #[arg(long, help_heading = help::SURFACE)]
+    pub(super) allow_open: bool,
+    /// Write the whole ground with the works in it: .obj or .ply
+    #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
+    pub(super) finished: Vec<OsString>,
     /// Cut and fill for every D along the line, with cross-sections and the running net
     ///
     /// Needs existing ground.
@@ -158,9 +167,10 @@ pub(super) struct SlopeArgs {
     /// Slope of surfaces that fall from the line, instead of --slope
     #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = help::SURFACE)]
     pub(super) fill_slope: Option<String>,
-    /// Whether the surface falls from the line (fill) or rises (cut)
-    #[arg(long, value_enum, default_value = "down", help_heading = help::SURFACE)]
-    pub(super) direction: DirectionArg,
+    /// Whether the surface falls from the line (fill), rises (cut), or does what the ground asks for [default: auto with
+    /// --terrain, else down]
+    #[arg(long, value_enum, help_heading = help::SURFACE)]
+    pub(super) direction: Option<DirectionArg>,
 }
 
 #[derive(Debug, Args)]
@@ -189,6 +199,7 @@ pub(super) enum SideArg {
 pub(super) enum DirectionArg {
     Down,
     Up,
+    Auto,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
