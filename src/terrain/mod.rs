@@ -11,6 +11,7 @@ mod overlap;
 mod place;
 mod points;
 mod polygons;
+mod spikes;
 mod upright;
 mod weld;
 
@@ -61,7 +62,7 @@ pub fn prepare(raw: RawTerrain) -> Result<Prepared, Defects> {
     let seen = triangles.as_ref().map(|triangles| Corners::new(vertices.len(), triangles));
     let coordinates = Coordinates::new(&vertices, seen.as_ref());
     let mut defects = Defects::default();
-    coordinates.check(&source, &mut defects, &mut notes);
+    coordinates.check(&vertices, &source, &mut defects, &mut notes);
     defects.into_result()?;
     let frame = Frame::around(coordinates.lo.truncate(), coordinates.hi.truncate());
     if frame != Frame::WORLD {
