@@ -220,7 +220,8 @@ mod tests {
     #[test]
     fn what_does_not_fit_is_refused() {
         for (text, words) in [
-            (format!("{HEAD}1 2 3\n"), "6 values; 3 are there"),
+            (format!("{HEAD}1 2 3\n"), "shorter than its header"),
+            (format!("{HEAD}1.00 2.00 3.00\n"), "6 values; 3 are there"),
             (format!("{HEAD}1 2 3\n4 5 6 7\n"), "longer"),
             (format!("{HEAD}1 2 3\n4 x 6\n"), "line 7"),
             (format!("{HEAD}1,5 2.5 3\n4 5 6\n"), "mixed"),
