@@ -213,6 +213,10 @@ fn ground_that_is_no_surface_is_refused() {
     assert!(message.contains("vertical faces") && message.contains("triangle 51"), "{message}");
     let upright: Vec<[f64; 3]> = given.iter().map(|[x, y, z]| [*x, *z, -y]).collect();
     assert!(error(&upright, &faces).contains("export it with Z up"), "{}", error(&upright, &faces));
+    // Near the origin only the way the triangles lie can tell.
+    let hilly: Vec<[f64; 3]> =
+        (0..N * N).map(|i| [(i % N) as f64 * 10.0, [3.0, 0.0, 5.0, 1.0, 4.0][i * i % 5], -((i / N) as f64) * 10.0]).collect();
+    assert!(error(&hilly, &faces).contains("export it with Z up"), "{}", error(&hilly, &faces));
     let degrees: Vec<[f64; 3]> = given.iter().map(|[x, y, z]| [(x - 5e5) * 1e-5 + 9.0, (y - 5.4e6) * 1e-5 + 48.0, *z]).collect();
     assert!(error(&degrees, &faces).contains("longitude and latitude"));
     let huge: Vec<[f64; 3]> = given.iter().map(|[x, y, z]| [x * 1e5, *y, *z]).collect();

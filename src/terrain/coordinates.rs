@@ -2,6 +2,7 @@
 
 use super::corners::Corners;
 use super::place::{defect, point, short};
+use super::upright;
 use crate::model::{Defect, Defects, Note};
 use crate::read::{CoordinateKind, Source};
 use crate::validate::{self, INPUT_LIMIT};
@@ -72,6 +73,10 @@ impl Coordinates {
             let help = "correct the coordinates; a marker for missing heights must not be a vertex";
             let what = "coordinates of the ground are beyond 10⁹";
             defects.extend(defect("ground-too-large", what, source.label.clone(), figures, help));
+            return;
+        }
+        if let Err(upright) = upright::far_up(&source.label, lo, hi) {
+            defects.extend(upright);
             return;
         }
         self.no_data(vertices, source, defects);
