@@ -6,6 +6,7 @@ pub mod design;
 pub mod error;
 mod figures;
 mod ground;
+mod on_ground;
 pub mod sample;
 mod watch;
 
@@ -13,6 +14,7 @@ pub use build::{BuildJob, Built, build};
 pub use design::{DesignError, MOST_LEVELS, Wishes};
 pub use error::{BuriedError, Error};
 pub use ground::read_ground;
+pub use on_ground::GroundInput;
 pub use sample::{Area, Lattice, MOST_NODES, SampleJob, Sampled, Where, lattice, sample};
 pub use watch::{Observer, WRITING};
 

@@ -87,7 +87,7 @@ impl Coordinates {
         }
         // The widest step of single precision: 2⁻²³ of the power of two at or below the largest plan coordinate.
         let plan = lo.truncate().abs().max(hi.truncate().abs()).max_element();
-        let step = 2.0_f64.powi(plan.log2().floor() as i32 - 23);
+        let step = 2.0_f64.powi(plan.max(COARSE).log2().floor() as i32 - 23);
         // Whole numbers are single by themselves as long as its step is not wider than one.
         let telling = self.fractions || step > 1.0;
         if source.kind != CoordinateKind::Degrees && self.single && telling && step >= COARSE {
