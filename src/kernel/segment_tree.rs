@@ -76,6 +76,12 @@ impl Tilted {
     fn meets(&self, other: &Self) -> bool {
         self.meets_across(other) && other.meets_across(self)
     }
+
+    /// Whether a disc about `p` may meet the box.
+    fn comes_near(&self, p: DVec2, reach: f64) -> bool {
+        let d = p - self.centre;
+        self.along.dot(d).abs() <= self.half.x + reach && self.along.perp_dot(d).abs() <= self.half.y + reach
+    }
 }
 
 /// Segments of a leaf. Small: neighbours on a line always meet, and a leaf is compared with its neighbour pair by pair.
@@ -154,6 +160,23 @@ impl SegmentTree {
                         return;
                     }
                 }
+            }
+        }
+    }
+
+    /// Calls `visit` for every segment whose bounds come within `reach` of `p`.
+    pub fn near(&self, p: DVec2, reach: f64, mut visit: impl FnMut(usize)) {
+        let leaves = self.nodes.len() / 2;
+        let around = Bounds { lo: p - reach, hi: p + reach };
+        let mut stack = vec![1];
+        while let Some(n) = stack.pop() {
+            if !self.nodes[n].meets(&around) || self.tilted[n].is_some_and(|t| !t.comes_near(p, reach)) {
+                continue;
+            }
+            if n < leaves {
+                stack.extend([2 * n + 1, 2 * n]);
+            } else {
+                self.run(n).filter(|&i| self.segments[i].meets(&around)).for_each(&mut visit);
             }
         }
     }
