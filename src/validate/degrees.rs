@@ -78,7 +78,7 @@ fn command(raw: &RawInput, epsg: i64) -> String {
             format!("ogr2ogr -f GeoJSON -s_srs EPSG:4326 -t_srs EPSG:{epsg} projected.geojson {label}")
         }
         // The old columns must go, or the new file has two for each direction.
-        InputFormat::Csv => format!(
+        _ => format!(
             "ogr2ogr -f CSV -lco GEOMETRY=AS_XYZ -oo \"X_POSSIBLE_NAMES=lon*,x\" -oo \"Y_POSSIBLE_NAMES=lat*,y\" -oo \
              \"Z_POSSIBLE_NAMES=z,el*,h*,alt*\" -oo KEEP_GEOM_COLUMNS=NO -s_srs EPSG:4326 -t_srs EPSG:{epsg} projected.csv \
              {label}"
