@@ -30,8 +30,7 @@ pub(super) fn read(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<(
         let message = format!("{skipped} lines with points or polylines (`p`, `l`) were passed over: they are no faces");
         notes.push(Note::new("obj-lines-ignored", message));
     }
-    let options =
-        tobj::LoadOptions { single_index: false, triangulate: false, ignore_points: false, ignore_lines: false };
+    let options = tobj::LoadOptions { single_index: false, triangulate: false, ignore_points: false, ignore_lines: false };
     let loaded = tobj::load_obj_buf(&mut feed, &options, |_| Err(tobj::LoadError::OpenFileFailed));
     drop(feed);
     let mesh = match loaded.map(|(mut models, _)| models.pop()) {

@@ -218,9 +218,9 @@ impl Reader<'_> {
             return Ok(Faces::with_capacity(0));
         }
         let list = self.element.find(&INDICES).map(|i| (i, self.element.properties[i].kind));
-        let Some((place, Kind::List { count: counter, item })) = list.filter(|(_, kind)| {
-            matches!(kind, Kind::List { item, .. } if item.is_whole())
-        }) else {
+        let Some((place, Kind::List { count: counter, item })) =
+            list.filter(|(_, kind)| matches!(kind, Kind::List { item, .. } if item.is_whole()))
+        else {
             let help = "export the mesh with `property list uchar int vertex_indices`";
             let figures = "element `face` has no list `vertex_indices` of whole numbers";
             return Err(refuse("the PLY file has no faces that can be read", self.label, figures, help));

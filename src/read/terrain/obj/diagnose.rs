@@ -70,7 +70,8 @@ fn bad_vertex(label: &str, bytes: &[u8]) -> Option<ReadError> {
         }
         let bad = fields.iter().take(3).find(|field| decimal::number(field).is_none())?;
         let help = if bad.contains(&b',') { "write decimal points instead of commas" } else { "correct the number" };
-        let what = if bad.contains(&b',') { "a coordinate has no decimal point but a comma" } else { "a coordinate is not a number" };
+        let what =
+            if bad.contains(&b',') { "a coordinate has no decimal point but a comma" } else { "a coordinate is not a number" };
         Some(at_line(label, bytes, at, what, |line| format!("`{}` in `{line}`", clip(bad)), help))
     })
 }
@@ -107,7 +108,11 @@ fn bad_face(label: &str, bytes: &[u8]) -> Option<ReadError> {
                     1.. => format!("vertex {index}, the file has {count}"),
                     _ => format!("vertex {index}, counted back from the {seen} before it"),
                 };
-                return refused("a face names a vertex that is not there", figures, "was the file cut off, or put together wrongly?");
+                return refused(
+                    "a face names a vertex that is not there",
+                    figures,
+                    "was the file cut off, or put together wrongly?",
+                );
             }
         }
         None
