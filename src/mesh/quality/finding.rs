@@ -159,7 +159,7 @@ impl Kind {
 pub struct Place {
     /// The place in world coordinates.
     pub at: DVec3,
-    /// Numbers of the triangles concerned, counted from 1 in the order of the mesh.
+    /// Numbers of the triangles (faces of the file) concerned, counted from 1 in its order.
     pub triangles: Vec<usize>,
     /// Numbers of the vertices concerned, counted from 1 in the order of the mesh.
     pub vertices: Vec<usize>,

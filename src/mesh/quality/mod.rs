@@ -59,6 +59,8 @@ pub struct Mesh<'a> {
     pub vertices: &'a [DVec3],
     /// Vertex indices; those out of range are told as not usable.
     pub triangles: &'a [[u32; 3]],
+    /// The face of the file each triangle is a part of, counted from 0. Empty: every triangle is a face.
+    pub faces: &'a [u32],
     /// The group of each triangle, an index into `names`. Empty: all are in the first.
     pub groups: &'a [u32],
     /// Names of the groups; empty if there are none.
@@ -122,6 +124,7 @@ struct Subject<'a> {
     frame: Frame,
     vertices: &'a [DVec3],
     triangles: &'a [[u32; 3]],
+    faces: &'a [u32],
 }
 
 impl Subject<'_> {
@@ -129,7 +132,7 @@ impl Subject<'_> {
     fn place(&self, at: DVec3, triangles: &[usize], vertices: &[u32]) -> Place {
         Place {
             at: self.frame.to_world(at),
-            triangles: triangles.iter().map(|t| t + 1).collect(),
+            triangles: triangles.iter().map(|&t| self.faces.get(t).map_or(t, |&face| face as usize) + 1).collect(),
             vertices: vertices.iter().map(|&v| v as usize + 1).collect(),
             figures: Vec::new(),
         }
@@ -143,7 +146,7 @@ pub fn examine(mesh: &Mesh<'_>, options: &Options) -> Quality {
     let extent = extent(mesh);
     let frame = extent.map_or(Frame::WORLD, |(lo, hi)| Frame::around(lo.truncate(), hi.truncate()));
     let vertices: Vec<DVec3> = mesh.vertices.iter().map(|&v| frame.to_local(v)).collect();
-    let subject = Subject { frame, vertices: &vertices, triangles: mesh.triangles };
+    let subject = Subject { frame, vertices: &vertices, triangles: mesh.triangles, faces: mesh.faces };
 
     let mut found = Vec::new();
     let faces = Faces::new(&subject, keep, &mut found);

@@ -19,7 +19,8 @@ impl Own {
     }
 
     fn look(&self, bound: Option<Bound>) -> Quality {
-        let mesh = Mesh { vertices: &self.vertices, triangles: &self.triangles, groups: &self.groups, names: &self.names };
+        let mesh =
+            Mesh { vertices: &self.vertices, triangles: &self.triangles, faces: &[], groups: &self.groups, names: &self.names };
         examine(&mesh, &Options { gap: None, places: 5, bound })
     }
 
@@ -387,7 +388,7 @@ proptest! {
         let vertices: Vec<DVec3> = corners.iter().map(|&(x, y)| DVec3::new(x.into(), y.into(), 0.0)).collect();
         let count = vertices.len() as u32;
         let triangles: Vec<[u32; 3]> = (0..size as u32).map(|k| [k * 7 % count, (k * 5 + 1) % count, (k * 3 + 2) % count]).collect();
-        let subject = Subject { frame: Frame::WORLD, vertices: &vertices, triangles: &triangles };
+        let subject = Subject { frame: Frame::WORLD, vertices: &vertices, triangles: &triangles, faces: &[] };
         let faces = Faces::new(&subject, 0, &mut Vec::new());
         // Twice the area common to two triangles, exactly: they are cut at the edges of the other.
         let common = |f: usize, g: usize| -> f64 {

@@ -3,9 +3,12 @@
 mod asc;
 mod decimal;
 mod kind;
+mod mesh;
 mod obj;
 mod ply;
 mod points;
+
+pub use mesh::{RawMesh, read_mesh};
 
 use super::{ColumnOrder, InputFormat, ReadError, Source};
 use crate::model::Note;
