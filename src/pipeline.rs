@@ -2,19 +2,21 @@
 //! that can be refused without the input has been refused before ([`crate::cli`] does it for the command line).
 
 pub mod build;
+pub mod check;
 pub mod design;
 pub mod error;
 mod figures;
-mod on_ground;
 mod ground;
+mod on_ground;
 pub mod sample;
 mod watch;
 
 pub use build::{BuildJob, Built, build};
+pub use check::{CheckJob, Looked, NotPassed, SlopeWish, check};
 pub use design::{DesignError, MOST_LEVELS, Wishes};
 pub use error::{BuriedError, Error};
-pub use on_ground::GroundInput;
 pub use ground::read_ground;
+pub use on_ground::GroundInput;
 pub use sample::{Area, Lattice, MOST_NODES, SampleJob, Sampled, Where, lattice, sample};
 pub use watch::{Observer, WRITING};
 

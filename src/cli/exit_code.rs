@@ -1,7 +1,7 @@
 //! What the process exits with.
 
 use super::job::UsageErrors;
-use crate::pipeline::Error;
+use crate::pipeline::{Error, NotPassed};
 use crate::read::ReadError;
 use crate::surface::SurfaceError;
 use std::process::ExitCode;
@@ -30,6 +30,9 @@ impl Code {
     pub(super) fn of(error: &anyhow::Error) -> Self {
         if error.is::<UsageErrors>() {
             return Self::Usage;
+        }
+        if error.is::<NotPassed>() {
+            return Self::Check;
         }
         match error.downcast_ref::<Error>() {
             // Seen from the arguments alone, without opening a file.

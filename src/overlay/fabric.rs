@@ -109,8 +109,7 @@ impl<'a> Linked<'a> {
     pub(super) fn new(fabric: &'a Fabric) -> Self {
         let opposite = opposites(fabric.vertices.len(), &fabric.triangles);
         let count = fabric.triangles.len();
-        let rim: Vec<u32> =
-            (0..count as u32).filter(|&t| opposite[3 * t as usize..3 * t as usize + 3].contains(&NONE)).collect();
+        let rim: Vec<u32> = (0..count as u32).filter(|&t| opposite[3 * t as usize..3 * t as usize + 3].contains(&NONE)).collect();
         let boxes = Boxes::new(count, |t| fabric.bounds(t as u32));
         let rim_boxes = Boxes::new(rim.len(), |i| fabric.bounds(rim[i]));
         Self { fabric, opposite, boxes, rim, rim_boxes }

@@ -150,11 +150,8 @@ fn boxed(name: &str, [lo, hi]: &[DVec2; 2]) -> String {
 pub fn between(design: &Terrain, existing: &Terrain) -> Result<Between, OverlayError> {
     let frame = if design.frame == existing.frame { existing.frame } else { common_frame(design, existing) };
     let boxes = [design, existing].map(|mesh| shifted_box(mesh, frame));
-    let [d, e] = [
-        (design, Surface::Design, &boxes[1]),
-        (existing, Surface::Existing, &boxes[0]),
-    ]
-    .map(|(mesh, surface, keep)| (Fabric::new(mesh, frame, keep), surface));
+    let [d, e] = [(design, Surface::Design, &boxes[1]), (existing, Surface::Existing, &boxes[0])]
+        .map(|(mesh, surface, keep)| (Fabric::new(mesh, frame, keep), surface));
     for (fabric, surface) in [&d, &e] {
         // Written so that an area that is no number is refused as well.
         if !(fabric.area > 0.0) {
@@ -166,7 +163,8 @@ pub fn between(design: &Terrain, existing: &Terrain) -> Result<Between, OverlayE
     let apart = || OverlayError::Apart { design: world(&boxes[0]), existing: world(&boxes[1]) };
     let [linked_design, linked_existing] = [Linked::new(&d), Linked::new(&e)];
     let mut double = [0.0; 2];
-    for (i, (mesh, surface)) in [(&linked_design, Surface::Design), (&linked_existing, Surface::Existing)].into_iter().enumerate() {
+    for (i, (mesh, surface)) in [(&linked_design, Surface::Design), (&linked_existing, Surface::Existing)].into_iter().enumerate()
+    {
         let found = layers::double(mesh);
         double[i] = found.area;
         if found.area > MOST_DOUBLE * mesh.fabric.area {
@@ -175,11 +173,8 @@ pub fn between(design: &Terrain, existing: &Terrain) -> Result<Between, OverlayE
         }
     }
     // The finer mesh is laid over the coarser one: its triangles have few cells each, which lie near each other.
-    let tally = if d.triangles.len() >= e.triangles.len() {
-        sweep(&d, &linked_existing)
-    } else {
-        sweep(&e, &linked_design).mirrored()
-    };
+    let tally =
+        if d.triangles.len() >= e.triangles.len() { sweep(&d, &linked_existing) } else { sweep(&e, &linked_design).mirrored() };
     if tally.cells == 0 {
         return Err(apart());
     }
@@ -250,9 +245,7 @@ impl Tally {
     }
 
     fn into_between(self, frame: Frame, design_area: f64, existing_area: f64, double: [f64; 2]) -> Between {
-        let depth = |side: &Side| {
-            (side.deepest > 0.0).then(|| Depth { depth: side.deepest, place: frame.to_world(side.place) })
-        };
+        let depth = |side: &Side| (side.deepest > 0.0).then(|| Depth { depth: side.deepest, place: frame.to_world(side.place) });
         let (cut, fill, unaffected) = (self.below.area.value(), self.above.area.value(), self.unaffected.value());
         let mut common = self.below.area;
         common.join(self.above.area);
@@ -264,13 +257,7 @@ impl Tally {
         Between {
             cut: self.below.volume.value(),
             fill: self.above.volume.value(),
-            areas: Areas {
-                cut,
-                fill,
-                unaffected,
-                design_uncovered: rest(design_area),
-                existing_uncovered: rest(existing_area),
-            },
+            areas: Areas { cut, fill, unaffected, design_uncovered: rest(design_area), existing_uncovered: rest(existing_area) },
             deepest_cut: depth(&self.below),
             deepest_fill: depth(&self.above),
             cells: self.cells,

@@ -1,10 +1,10 @@
 //! Why a job was not done.
 
 use super::DesignError;
+use crate::ground::GroundError;
 use crate::model::{Defects, Slope};
 use crate::read::ReadError;
 use crate::report::BuriedStretch;
-use crate::ground::GroundError;
 use crate::surface::SurfaceError;
 use crate::write::WriteError;
 use std::fmt;

@@ -36,8 +36,7 @@ pub(super) fn build(
     }
     let mut site = Site::new(line, terrain);
     let designs = designs(&job.wishes, &mut site, line, &source.label, watch)?;
-    let options =
-        Options { allow_open: input.allow_open, finished: !job.finished.is_empty(), stations: job.stations };
+    let options = Options { allow_open: input.allow_open, finished: !job.finished.is_empty(), stations: job.stations };
     let counts = (site.terrain().vertices.len(), site.terrain().triangles.len());
     let built = site.build(&designs, &options, watch).map_err(|cause| Error::Ground {
         label: source.label.clone(),
@@ -50,13 +49,7 @@ pub(super) fn build(
 }
 
 /// One design for each sheet, as deep as it can reach ground.
-fn designs(
-    all: &[Wishes],
-    site: &mut Site<'_>,
-    line: &Line,
-    label: &str,
-    watch: &Stopwatch<'_>,
-) -> Result<Vec<Design>, Error> {
+fn designs(all: &[Wishes], site: &mut Site<'_>, line: &Line, label: &str, watch: &Stopwatch<'_>) -> Result<Vec<Design>, Error> {
     let (low, high) = line.elevation_range();
     let mut chosen = Vec::new();
     let mut designs = Vec::new();

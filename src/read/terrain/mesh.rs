@@ -68,7 +68,7 @@ pub(super) fn parse_mesh(label: &str, bytes: &[u8], format: InputFormat) -> Resu
                     (loaded.vertices, loaded.faces, numbered(named.into_iter()))
                 }),
                 _ => obj::load(label, bytes, &mut notes).map(|loaded| {
-                    let count = loaded.faces.as_ref().map_or(0, face_count);
+                    let count = loaded.faces.as_ref().map_or(0, RawFaces::len);
                     let groups = by_face(&loaded.groups, count);
                     (loaded.vertices, loaded.faces, groups)
                 }),
@@ -79,13 +79,6 @@ pub(super) fn parse_mesh(label: &str, bytes: &[u8], format: InputFormat) -> Resu
     let ((vertices, faces, (groups, names)), notes) = read?;
     let faces = faces.unwrap_or(RawFaces::Triangles(Vec::new()));
     Ok(RawMesh { source, vertices, faces, groups, names, notes })
-}
-
-fn face_count(faces: &RawFaces) -> usize {
-    match faces {
-        RawFaces::Triangles(triangles) => triangles.len(),
-        RawFaces::Polygons { ends, .. } => ends.len(),
-    }
 }
 
 /// Name of a part by its number in PLY files.

@@ -38,6 +38,21 @@ pub enum RawFaces {
     },
 }
 
+impl RawFaces {
+    /// Number of faces.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Triangles(triangles) => triangles.len(),
+            Self::Polygons { ends, .. } => ends.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
 /// Heights at the nodes of an upright grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawGrid {
