@@ -1,11 +1,13 @@
 //! The main job: a line to a surface, its files and its report.
 
-use super::watch::{CHECKING, Observer, READING, Stopwatch, WRITING};
-use super::{BuriedError, Error, LineInput, Wishes, check_steepness, figures, read_line};
-use crate::model::Bulking;
+use super::watch::{CHECKING, Observer, PREPARING, READING, READING_GROUND, Stopwatch, WRITING};
+use super::{BuriedError, Error, GroundInput, LineInput, Wishes, check_steepness, figures, on_ground, read_line};
+use crate::model::{Bulking, Line, LineFeature, Tin};
+use crate::read::Source;
 use crate::report::{Report, ReportFormat};
 use crate::surface;
 use crate::write::{Delivery, MeshFormat, Outputs, Target, WriteError, write_lines};
+use std::path::Path;
 
 /// A surface to be built, and where to put it.
 #[derive(Clone, Debug)]
@@ -144,14 +146,17 @@ fn in_order(targets: &[Target], contents: &[Content]) -> Vec<usize> {
 
 /// Writes the times into the report.
 fn stamp(report: &mut Report, watch: &Stopwatch<'_>) {
-    /// The engine's stage of areas and volumes.
-    const VOLUMES: &str = "volumes";
-    /// All but the surface itself; whatever other stages there are, are its own.
-    const AROUND: [&str; 4] = [READING, CHECKING, VOLUMES, WRITING];
+    /// The engine's stages of areas and volumes; with existing ground also of what follows from them.
+    const VOLUMES: [&str; 4] = ["volumes", "works", "daylight", "finished ground"];
+    const LINE: [&str; 2] = [READING, CHECKING];
+    const GROUND: [&str; 2] = [READING_GROUND, PREPARING];
     let timing = &mut report.timing;
-    timing.read = watch.seconds(|stage| stage == READING || stage == CHECKING);
-    timing.surface = watch.seconds(|stage| !AROUND.contains(&stage));
-    timing.volume = watch.seconds(|stage| stage == VOLUMES);
+    timing.read = watch.seconds(|stage| LINE.contains(&stage));
+    timing.terrain = report.terrain.map(|_| watch.seconds(|stage| GROUND.contains(&stage)));
+    timing.volume = watch.seconds(|stage| VOLUMES.contains(&stage));
+    // Whatever other stages there are, are those of the surface itself.
+    let around = |stage: &str| LINE.contains(&stage) || GROUND.contains(&stage) || VOLUMES.contains(&stage) || stage == WRITING;
+    timing.surface = watch.seconds(|stage| !around(stage));
     timing.write = watch.seconds(|stage| stage == WRITING);
     timing.total = watch.total();
 }

@@ -4,9 +4,12 @@ use super::build::{BuildJob, Product};
 use super::watch::Stopwatch;
 use super::{Error, Wishes, check_steepness, figures, ground};
 use crate::ground::{Options, Site};
-use crate::model::{Design, Extent, Line, Sheet};
+use crate::kernel::sum::Sum;
+use crate::mesh::volume::plan_area;
+use crate::model::{Design, Extent, Line, Sheet, Terrain};
 use crate::read::Source;
 use crate::read::terrain::TerrainOptions;
+use crate::report::TerrainFigures;
 use crate::terrain;
 use std::path::PathBuf;
 
@@ -37,13 +40,13 @@ pub(super) fn build(
     let mut site = Site::new(line, terrain);
     let designs = designs(&job.wishes, &mut site, line, &source.label, watch)?;
     let options = Options { allow_open: input.allow_open, finished: !job.finished.is_empty(), stations: job.stations };
-    let counts = (site.terrain().vertices.len(), site.terrain().triangles.len());
+    let (terrain, area) = terrain_figures(site.terrain());
     let built = site.build(&designs, &options, watch).map_err(|cause| Error::Ground {
         label: source.label.clone(),
         ground: ground_source.label.clone(),
         cause,
     })?;
-    let inputs = figures::Inputs { line, source, ground: &ground_source, counts };
+    let inputs = figures::Inputs { line, source, ground: &ground_source, terrain, area };
     let report = figures::ground_report(&inputs, job, &designs, &built, &watch.notes());
     Ok(Product { design: built.design, finished: built.finished, lines: built.lines, report })
 }
@@ -66,4 +69,18 @@ fn designs(all: &[Wishes], site: &mut Site<'_>, line: &Line, label: &str, watch:
     chosen.dedup();
     chosen.iter().for_each(|note| watch.note(note));
     Ok(designs)
+}
+
+/// Figures of the ground as given, and its plan area.
+fn terrain_figures(terrain: &Terrain) -> (TerrainFigures, f64) {
+    let heights = terrain.vertices.iter().map(|v| v.z);
+    let figures = TerrainFigures {
+        vertices: terrain.vertices.len(),
+        triangles: terrain.triangles.len(),
+        triangles_used: 0,
+        z_min: heights.clone().fold(f64::INFINITY, f64::min),
+        z_max: heights.fold(f64::NEG_INFINITY, f64::max),
+    };
+    let area = (0..terrain.triangles.len()).map(|t| plan_area(terrain.corners(t))).collect::<Sum>().value();
+    (figures, area)
 }
