@@ -6,7 +6,7 @@ use crate::mesh::quality::{self, Bound, Mesh, Options};
 use crate::model::{Defect, Defects, Note, Part, Slope};
 use crate::read::InputFormat;
 use crate::read::terrain::{RawFaces, RawMesh, read_mesh};
-use crate::report::{CheckReport, Checked, Input, ReportFormat, Warning};
+use crate::report::{CheckReport, Checked, ReportFormat, Warning};
 use crate::terrain;
 use crate::write::{Outputs, Target};
 use std::collections::BTreeMap;
@@ -79,7 +79,7 @@ pub fn check(job: &CheckJob, observer: &dyn Observer) -> Result<Looked, Error> {
 }
 
 fn look(raw: RawMesh, options: &Options, watch: &Stopwatch<'_>) -> CheckReport {
-    let input = Input { role: "mesh".into(), ..figures::input(&raw.source) };
+    let input = figures::input("mesh", &raw.source);
     let count = raw.faces.len();
     let (triangles, faces) = match raw.faces {
         RawFaces::Triangles(triangles) => (triangles, Vec::new()),
