@@ -2,7 +2,7 @@
 
 use super::watch::{CHECKING, Observer, READING, Stopwatch, WRITING};
 use super::{Error, figures};
-use crate::mesh::quality::{self, Bound, Mesh, Options};
+use crate::mesh::quality::{self, Bound, Kind, Mesh, Options};
 use crate::model::{Defect, Defects, Note, Part, Slope};
 use crate::read::InputFormat;
 use crate::read::terrain::{RawFaces, RawMesh, read_mesh};
@@ -170,7 +170,9 @@ impl NotPassed {
             return None;
         }
         let mut figures: Vec<String> = Vec::new();
-        for finding in report.findings.iter().filter(|finding| finding.severity == "error") {
+        // Two remarks say why there are errors.
+        let telling = [Kind::Closed, Kind::Standing].map(Kind::code);
+        for finding in report.findings.iter().filter(|f| f.severity == "error" || telling.contains(&f.code)) {
             let least = if finding.at_least { "at least " } else { "" };
             figures.push(format!("{least}{} {}", finding.count, finding.message));
         }

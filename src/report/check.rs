@@ -1,5 +1,7 @@
 //! The report of `slopegen check`: schema `slopegen-check/1`, described in `docs/report.md`.
 
+#[cfg(test)]
+mod tests;
 mod text;
 
 pub use text::render_check;
@@ -137,7 +139,7 @@ impl From<&Finding> for FindingFigures {
             severity: if finding.severity == Severity::Error { "error" } else { "remark" },
             count: finding.count,
             at_least: finding.at_least,
-            message: finding.kind.what(),
+            message: finding.kind.what(finding.count),
             places: finding.places.iter().map(PlaceFigures::from).collect(),
         }
     }

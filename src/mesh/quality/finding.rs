@@ -119,33 +119,42 @@ impl Kind {
         }
     }
 
-    /// What is counted, in words that follow a number.
-    pub fn what(self) -> &'static str {
-        match self {
-            Self::Empty => "mesh without a triangle",
-            Self::NotFinite => "vertices that are not finite, or too large",
-            Self::NotUsable => "triangles with such a corner, left out below",
-            Self::Degenerate => "triangles without area",
-            Self::Duplicate => "triangles with the corners of another, left out below",
-            Self::Upright => "triangles that stand upright",
-            Self::Clockwise => "triangles that are clockwise in plan",
-            Self::NonManifold => "edges of more than two triangles",
-            Self::Orientation => "edges whose two triangles face opposite ways",
-            Self::Overlap => "pairs of triangles that overlap in plan",
-            Self::TJunction => "T-junctions: vertices inside a boundary edge",
-            Self::Crack => "cracks: pairs of boundary vertices that should be one",
-            Self::Unfinished => "searches given up, too many pairs are close together",
-            Self::Hairline => "pairs of triangles that overlap by no more than rounding",
-            Self::Thin => "triangles too low for an angle to be told",
-            Self::Needle => "needles: triangles with an angle below 1°",
-            Self::Pinched => "vertices where the surface hangs together by a point",
-            Self::Hole => "holes",
-            Self::Pieces => "pieces that share no edge",
-            Self::Closed => "closed surface: the skin of a solid, not a ground",
-            Self::Standing => "surface that stands upright as a whole: is y up in this file?",
-            Self::Unused => "vertices that no triangle uses",
-            Self::Unshared => "vertices exactly at the place of another, taken as one",
-        }
+    /// What is counted, in words that follow the number.
+    pub fn what(self, count: usize) -> &'static str {
+        let (one, several) = match self {
+            Self::Empty => ("mesh without a triangle", "meshes without a triangle"),
+            Self::NotFinite => ("vertex that is not finite, or too large", "vertices that are not finite, or too large"),
+            Self::NotUsable => ("triangle with such a corner, left out below", "triangles with such a corner, left out below"),
+            Self::Degenerate => ("triangle without area", "triangles without area"),
+            Self::Duplicate => {
+                ("triangle with the corners of another, left out below", "triangles with the corners of another, left out below")
+            }
+            Self::Upright => ("triangle that stands upright", "triangles that stand upright"),
+            Self::Clockwise => ("triangle that is clockwise in plan", "triangles that are clockwise in plan"),
+            Self::NonManifold => ("edge of more than two triangles", "edges of more than two triangles"),
+            Self::Orientation => ("edge whose two triangles face opposite ways", "edges whose two triangles face opposite ways"),
+            Self::Overlap => ("pair of triangles that overlap in plan", "pairs of triangles that overlap in plan"),
+            Self::TJunction => ("T-junction: a vertex inside a boundary edge", "T-junctions: vertices inside a boundary edge"),
+            Self::Crack => {
+                ("crack: a pair of boundary vertices that should be one", "cracks: pairs of boundary vertices that should be one")
+            }
+            Self::Unfinished => ("search given up: too many pairs lie close", "searches given up: too many pairs lie close"),
+            Self::Hairline => {
+                ("pair of triangles that overlap by rounding only", "pairs of triangles that overlap by rounding only")
+            }
+            Self::Thin => ("triangle too low for an angle to be told", "triangles too low for an angle to be told"),
+            Self::Needle => ("needle: a triangle with an angle below 1°", "needles: triangles with an angle below 1°"),
+            Self::Pinched => ("vertex where the surface hangs by a point", "vertices where the surface hangs by a point"),
+            Self::Hole => ("hole", "holes"),
+            Self::Pieces => ("piece", "pieces that share no edge"),
+            Self::Closed => ("closed surface: the skin of a solid, not a ground", "closed surfaces"),
+            Self::Standing => ("surface that stands on edge as a whole: is y up in this file?", "surfaces that stand on edge"),
+            Self::Unused => ("vertex that no triangle uses", "vertices that no triangle uses"),
+            Self::Unshared => {
+                ("vertex exactly at the place of another, taken as one", "vertices exactly at the place of another, taken as one")
+            }
+        };
+        if count == 1 { one } else { several }
     }
 
     /// What it means for the surface, where nothing else is known: only [`Kind::Clockwise`] may be either.

@@ -8,8 +8,8 @@ use crate::kernel::segment_tree::SegmentTree;
 use glam::DVec2;
 use rustc_hash::FxHashMap;
 
-/// Pairs of a vertex and an edge, or of two vertices, that are looked at before the search is given up.
-const MOST_PAIRS: usize = 1 << 27;
+/// Pairs of a vertex and an edge, or of two vertices, that are looked at before the search is given up: some seconds.
+const MOST_PAIRS: usize = 1 << 25;
 
 /// Finds seams that are not joined; `order` has the open edges in the order of loops.
 pub(super) fn seams(faces: &Faces<'_>, edges: &Edges, order: &[usize], gap: f64, keep: usize) -> [Collector; 3] {

@@ -123,7 +123,9 @@ fn slopes(text: &mut String, s: &SlopesFigures) {
     named(text, "mean", format!("{:.4}°", s.mean_degrees));
     let common = s.common.iter().filter_map(|c| {
         let slope = Slope::from_ratio(c.degrees.to_radians().tan())?;
-        Some(format!("{:.2}° ({}) {}", c.degrees, slope.not_flatter(), percent(c.share)))
+        let forms = slope.forms();
+        let ratio = forms.split(" · ").next().unwrap_or_default();
+        Some(format!("{:.2}° ({ratio}) {}", c.degrees, percent(c.share)))
     });
     let common: Vec<String> = common.collect();
     if !common.is_empty() {
