@@ -197,3 +197,35 @@ impl SegmentTree {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn near_misses_none(
+            steps in prop::collection::vec((-3.0..3.0_f64, -3.0..3.0_f64), 1..80),
+            p in (-9.0..9.0_f64, -9.0..9.0_f64),
+            reach in 0.0..2.0_f64,
+        ) {
+            let mut at = DVec2::ZERO;
+            let segments: Vec<(DVec2, DVec2)> = steps.iter().map(|&step| {
+                let from = at;
+                at += DVec2::from(step);
+                (from, at)
+            }).collect();
+            let p = DVec2::from(p);
+            let mut found = Vec::new();
+            SegmentTree::new(&segments).near(p, reach, |i| found.push(i));
+            found.sort_unstable();
+            prop_assert!(found.windows(2).all(|w| w[0] < w[1]), "{:?}", found);
+            for (i, &(a, b)) in segments.iter().enumerate() {
+                let along = ((b - a).dot(p - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+                let distance = (p - a - (b - a) * along).length();
+                prop_assert!(distance > reach || found.contains(&i), "{} at {}", i, distance);
+            }
+        }
+    }
+}

@@ -215,7 +215,7 @@ fn common(fine: &[(Tally, Sum)], told: f64) -> Vec<Common> {
             break;
         };
         let area = sum(best);
-        if !(area > COMMON_SHARE * told) {
+        if area <= COMMON_SHARE * told {
             break;
         }
         let weighted: f64 = run(best).filter(|&i| areas[i] > 0.0).map(|i| fine[i].1.value()).sum();
