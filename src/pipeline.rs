@@ -2,6 +2,7 @@
 //! that can be refused without the input has been refused before ([`crate::cli`] does it for the command line).
 
 pub mod build;
+pub mod check;
 pub mod design;
 pub mod error;
 mod figures;
@@ -11,6 +12,7 @@ pub mod sample;
 mod watch;
 
 pub use build::{BuildJob, Built, build};
+pub use check::{CheckJob, Looked, NotPassed, SlopeWish, check};
 pub use design::{DesignError, MOST_LEVELS, Wishes};
 pub use error::{BuriedError, Error};
 pub use ground::read_ground;

@@ -1,5 +1,6 @@
 //! Arguments as typed: what the parser can check by itself, and the words of the help.
 
+use super::check::CheckArgs;
 use super::help;
 use clap::{ArgAction, ArgGroup, Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
 use std::ffi::OsString;
@@ -26,6 +27,9 @@ pub(super) enum Command {
     /// Exact heights of the surface at points or as a raster
     #[command(after_help = help::AFTER_SAMPLE, arg_required_else_help = true)]
     Sample(Box<SampleArgs>),
+    /// Look at a mesh from anywhere: soundness, slopes, angles
+    #[command(after_help = help::AFTER_CHECK, arg_required_else_help = true)]
+    Check(Box<CheckArgs>),
 }
 
 #[derive(Debug, Args)]

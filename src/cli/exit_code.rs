@@ -2,7 +2,7 @@
 
 use super::job::UsageErrors;
 use crate::ground::GroundError;
-use crate::pipeline::Error;
+use crate::pipeline::{Error, NotPassed};
 use crate::read::ReadError;
 use crate::surface::SurfaceError;
 use std::process::ExitCode;
@@ -31,6 +31,9 @@ impl Code {
     pub(super) fn of(error: &anyhow::Error) -> Self {
         if error.is::<UsageErrors>() {
             return Self::Usage;
+        }
+        if error.is::<NotPassed>() {
+            return Self::Check;
         }
         match error.downcast_ref::<Error>() {
             // Seen from the arguments alone, without opening a file.

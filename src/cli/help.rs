@@ -3,6 +3,7 @@
 pub(super) const INPUT: &str = "Input";
 pub(super) const SURFACE: &str = "Surface";
 pub(super) const PLACES: &str = "Places";
+pub(super) const CHECKS: &str = "Checks";
 pub(super) const OUTPUT: &str = "Output";
 pub(super) const RUNNING: &str = "Running";
 
@@ -39,3 +40,15 @@ Examples:
   echo 500100,5400200 | slopegen sample road.geojson --slope 1:1.5 --at - --at-order xy
 
 Heights are those of the closed form of the given line, on both sides of it and as far as you ask: nothing is simplified.";
+
+pub(super) const AFTER_CHECK: &str = "\
+Examples:
+  slopegen check ground.obj
+      is it a sound surface: oriented, without overlaps, cracks and T-junctions? With places, slopes and angles
+  slopegen check road.obj --slope 1:1.5
+      and do its slopes keep 1V:1.5H within 0.1 degrees?
+  slopegen check design.ply --slope 1:2 --tolerance-deg 0.5 --max-off 2% --part batter --report check.json
+      the group `batter` of another program's mesh: 2 % of its area may be off by more than half a degree
+
+The mesh is taken as it is in the file; vertices at exactly the same place are taken as one. Exits with 5 when the surface is
+not sound or does not keep the slope, with 0 when there are only remarks.";

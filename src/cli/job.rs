@@ -14,7 +14,7 @@ use std::fmt;
 use std::path::Path;
 
 /// The smallest tolerance, height, distance and cell: what coordinates of lines are told apart by.
-const LEAST_LENGTH: f64 = crate::validate::MERGE_DISTANCE;
+pub(super) const LEAST_LENGTH: f64 = crate::validate::MERGE_DISTANCE;
 
 /// More threads than any machine this runs on has processors.
 const MOST_THREADS: usize = 1024;
@@ -33,19 +33,19 @@ impl std::error::Error for UsageErrors {}
 
 /// Gathers what is wrong, so that all of it is told at once.
 #[derive(Default)]
-struct Checks(Vec<String>);
+pub(super) struct Checks(Vec<String>);
 
 impl Checks {
     /// The value, or `None` after taking down what is wrong with it.
-    fn take<T>(&mut self, result: Result<T, String>) -> Option<T> {
+    pub(super) fn take<T>(&mut self, result: Result<T, String>) -> Option<T> {
         result.map_err(|error| self.0.push(error)).ok()
     }
 
-    fn number(&mut self, option: &str, text: Option<&String>, rule: Rule) -> Option<f64> {
+    pub(super) fn number(&mut self, option: &str, text: Option<&String>, rule: Rule) -> Option<f64> {
         text.and_then(|text| self.take(number::read(option, text, rule)))
     }
 
-    fn format<T>(&mut self, result: Result<T, UnknownFormat>) -> Option<T> {
+    pub(super) fn format<T>(&mut self, result: Result<T, UnknownFormat>) -> Option<T> {
         self.take(result.map_err(|error| error.to_string()))
     }
 
@@ -58,7 +58,7 @@ impl Checks {
         }))
     }
 
-    fn slope(&mut self, option: &str, text: Option<&String>) -> Option<Slope> {
+    pub(super) fn slope(&mut self, option: &str, text: Option<&String>) -> Option<Slope> {
         let text = text?;
         self.take(text.parse::<Slope>().map_err(|error| {
             let message = error.to_string();
@@ -131,7 +131,7 @@ impl Checks {
         }
     }
 
-    fn finish<T>(self, job: Option<T>) -> Result<T, UsageErrors> {
+    pub(super) fn finish<T>(self, job: Option<T>) -> Result<T, UsageErrors> {
         match job {
             Some(job) if self.0.is_empty() => Ok(job),
             _ => Err(UsageErrors(self.0)),
@@ -284,7 +284,7 @@ pub(super) fn threads(args: &Running) -> Result<Option<usize>, UsageErrors> {
     }
 }
 
-fn targets(arguments: &[OsString]) -> Vec<Target> {
+pub(super) fn targets(arguments: &[OsString]) -> Vec<Target> {
     arguments.iter().map(|argument| Target::from_arg(argument)).collect()
 }
 

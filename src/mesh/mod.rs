@@ -2,5 +2,6 @@
 
 pub mod check;
 pub mod polygon;
+pub mod quality;
 pub mod region;
 pub mod volume;

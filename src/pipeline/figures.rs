@@ -109,7 +109,7 @@ fn surface_figures(tin: &Tin, areas: &Areas) -> SurfaceFigures {
     }
 }
 
-fn input(role: &str, source: &Source) -> Input {
+pub(super) fn input(role: &str, source: &Source) -> Input {
     Input {
         role: role.to_owned(),
         path: if source.label == "<stdin>" { "-".to_owned() } else { source.label.clone() },

@@ -1,16 +1,16 @@
 //! The report for machines.
 
-use super::Report;
 use crate::write::EncodeError;
+use serde::Serialize;
 use serde_json::Value;
 use std::io::Write;
 
-/// Writes a report as indented JSON, schema `slopegen-report/1`, with a line break at the end.
+/// Writes a report as indented JSON, with a line break at the end.
 ///
 /// # Errors
 /// [`EncodeError::ReportNotFinite`] names the first figure that is NaN or infinite, and nothing is written;
 /// [`EncodeError::Report`] from the sink.
-pub fn write_json(out: &mut (impl Write + ?Sized), report: &Report) -> Result<(), EncodeError> {
+pub fn write_json(out: &mut (impl Write + ?Sized), report: &impl Serialize) -> Result<(), EncodeError> {
     // JSON has no NaN: serde_json turns it into null. No key of a report is ever null on purpose.
     if let Some(path) = first_null(&serde_json::to_value(report)?, "") {
         return Err(EncodeError::ReportNotFinite(path));
@@ -37,6 +37,7 @@ fn first_null(value: &Value, path: &str) -> Option<String> {
 mod tests {
     use super::*;
     use crate::report::Detail;
+    use crate::report::Report;
     use crate::report::testing::{compare, full, least, on_ground};
 
     fn json(report: &Report) -> String {

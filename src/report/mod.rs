@@ -1,5 +1,6 @@
 //! What a run has to tell: as data ([`Report`]), as JSON for machines, as text for people.
 
+pub mod check;
 pub mod ground;
 pub mod json;
 pub mod model;
@@ -9,6 +10,7 @@ pub mod volumes;
 #[cfg(test)]
 mod testing;
 
+pub use check::{CHECK_SCHEMA, CheckReport, Checked, render_check};
 pub use ground::{
     Daylight, EndArea, FinishedFigures, GroundAreas, PadRow, SectionRow, SectionSlopes, SlopeRange, StationRow, TerrainFigures,
     ThreeSections, station_rows,

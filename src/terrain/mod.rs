@@ -17,6 +17,7 @@ mod weld;
 
 pub use inspect::{Findings, inspect};
 pub use overlap::check_overlap;
+pub use polygons::one as split_polygon;
 
 use crate::kernel::frame::Frame;
 use crate::model::{Defects, Note, Terrain};

@@ -1,6 +1,7 @@
 //! The command line from outside: the program is run as people run it.
 
 mod build;
+mod check;
 mod golden;
 mod help;
 mod messages;
