@@ -2,6 +2,7 @@
 
 use super::args::{BuildArgs, DirectionArg, FormatArg, InputArgs, Running, SampleArgs, SideArg, SlopeArgs};
 use super::number::{self, Rule};
+use crate::formation::{Crossfall, Formation};
 use crate::model::{Extent, Sheet, Side, Slope};
 use crate::pipeline::{Area, BuildJob, Lattice, LineInput, SampleJob, Where, Wishes};
 use crate::read::{ColumnOrder, InputFormat, ReadOptions};
@@ -14,6 +15,12 @@ use std::path::Path;
 
 /// The smallest tolerance, height, distance and cell: what coordinates of lines are told apart by.
 const LEAST_LENGTH: f64 = crate::validate::MERGE_DISTANCE;
+
+/// The narrowest road, in the length unit: the sides of a narrower one are one among the errors of coordinates.
+const LEAST_WIDTH: f64 = 0.001;
+
+/// How far breaklines may miss rings where no tolerance is given, in the length unit: the default of `--tolerance`.
+const DEFAULT_TOLERANCE: f64 = 0.01;
 
 /// More threads than any machine this runs on has processors.
 const MOST_THREADS: usize = 1024;
@@ -59,11 +66,7 @@ impl Checks {
 
     fn slope(&mut self, option: &str, text: Option<&String>) -> Option<Slope> {
         let text = text?;
-        self.take(text.parse::<Slope>().map_err(|error| {
-            let message = error.to_string();
-            let (what, rest) = message.split_once('\n').unwrap_or((&message, ""));
-            format!("{what}\n  --> {option} {text}\n{rest}").trim_end().to_owned()
-        }))
+        self.take(text.parse::<Slope>().map_err(|error| placed(&error.to_string(), option, text)))
     }
 
     /// The slope and its sheet.
@@ -84,13 +87,32 @@ impl Checks {
         Some((own.or(slope)?, sheet))
     }
 
-    fn input(&mut self, args: &InputArgs) -> LineInput {
+    fn input(&mut self, args: &InputArgs, tolerance: Option<f64>) -> LineInput {
         let format = args.input_format.map(|format| match format {
             FormatArg::Geojson => InputFormat::GeoJson,
             FormatArg::Csv => InputFormat::Csv,
         });
         let csv_order = self.order("--csv-order", args.csv_order.as_ref());
-        LineInput { path: args.input.clone(), options: ReadOptions { format, csv_order }, closed: args.closed }
+        let tolerance = tolerance.unwrap_or(DEFAULT_TOLERANCE);
+        let formation = self.formation(args, tolerance);
+        let options = ReadOptions { format, csv_order };
+        LineInput { path: args.input.clone(), options, closed: args.closed, formation, tolerance }
+    }
+
+    fn formation(&mut self, args: &InputArgs, tolerance: f64) -> Option<Formation> {
+        let width = self.number("--width", args.width.as_ref(), Rule::AtLeast(LEAST_WIDTH));
+        let crossfall = args
+            .crossfall
+            .as_ref()
+            .map(|text| self.take(text.parse::<Crossfall>().map_err(|error| placed(&error.to_string(), "--crossfall", text))));
+        if args.width.is_some() && args.closed {
+            let help = "leave `--closed` out for the centre line of a road, or `--width` for a ring";
+            self.0.push(format!(
+                "`--width` needs open lines, and `--closed` makes rings of them\n  --> --width\n   = help: {help}"
+            ));
+        }
+        let crossfall = crossfall.unwrap_or(Some(Crossfall::default()));
+        width.zip(crossfall).map(|(width, crossfall)| Formation { width, crossfall, chord: tolerance / 3.0 })
     }
 
     fn finish<T>(self, job: Option<T>) -> Result<T, UsageErrors> {
@@ -101,13 +123,20 @@ impl Checks {
     }
 }
 
+/// A message with the option it is about below its first line.
+fn placed(message: &str, option: &str, text: &str) -> String {
+    let (what, rest) = message.split_once('\n').unwrap_or((message, ""));
+    format!("{what}\n  --> {option} {text}\n{rest}").trim_end().to_owned()
+}
+
 /// The job of `slopegen build`.
 ///
 /// # Errors
 /// Everything wrong with the arguments.
 pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     let mut checks = Checks::default();
-    let input = checks.input(&args.input);
+    let tolerance = checks.number("--tolerance", Some(&args.tolerance), Rule::AtLeast(LEAST_LENGTH));
+    let input = checks.input(&args.input, tolerance);
     let slope = checks.slopes(&args.slope);
     let extent = [
         checks.number("--to-elevation", args.to_elevation.as_ref(), Rule::Coordinate).map(Extent::Elevation),
@@ -115,7 +144,6 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         checks.number("--distance", args.distance.as_ref(), Rule::AtLeast(LEAST_LENGTH)).map(Extent::Distance),
     ];
     let interval = checks.number("--interval", args.interval.as_ref(), Rule::Positive);
-    let tolerance = checks.number("--tolerance", Some(&args.tolerance), Rule::AtLeast(LEAST_LENGTH));
     let reference = checks.number("--reference", args.reference.as_ref(), Rule::Coordinate);
     let side = args.side.map(|side| match side {
         SideArg::Left => Side::Left,
@@ -124,6 +152,13 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         SideArg::Inside => Side::Inside,
         SideArg::Outside => Side::Outside,
     });
+
+    if args.input.width.is_some() && side.is_some_and(|side| side != Side::Outside) {
+        let help = "leave `--side` out; `outside` says the same";
+        checks.0.push(format!(
+            "a road has its slopes outside\n  --> --side\n   = `--width` makes a ring of the edges of the road\n   = help: {help}"
+        ));
+    }
 
     let outputs = if args.output.is_empty() { vec![default_output(&args.input.input)] } else { args.output.clone() };
     let mut meshes = Vec::new();
@@ -163,7 +198,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
 /// Everything wrong with the arguments.
 pub(super) fn sample_job(args: &SampleArgs) -> Result<SampleJob, UsageErrors> {
     let mut checks = Checks::default();
-    let input = checks.input(&args.input);
+    let input = checks.input(&args.input, None);
     let slope = checks.slopes(&args.slope);
     let place = match (&args.at, &args.raster) {
         (Some(path), _) => {

@@ -2,4 +2,5 @@
 
 pub mod check;
 pub mod region;
+pub mod strip;
 pub mod volume;

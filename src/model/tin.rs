@@ -68,6 +68,8 @@ pub enum CurveKind {
     Valley,
     /// The given line.
     Hinge,
+    /// A line on the platform: given, or the centre line of a road.
+    Breakline,
     /// Where the slope ends.
     Boundary,
 }
@@ -80,6 +82,7 @@ impl CurveKind {
             Self::Ridge => "ridge",
             Self::Valley => "valley",
             Self::Hinge => "hinge",
+            Self::Breakline => "breakline",
             Self::Boundary => "boundary",
         }
     }
@@ -94,6 +97,6 @@ pub struct LineFeature {
     pub points: Vec<DVec3>,
     /// Elevation of a level curve.
     pub elevation: Option<f64>,
-    /// Name of the chain a hinge comes from.
+    /// Name of the chain a hinge comes from, or of the breakline.
     pub chain: Option<String>,
 }

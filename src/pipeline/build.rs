@@ -66,7 +66,7 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     if let Some(note) = figures::buried_note(&buried) {
         watch.note(&note);
     }
-    let mut report = figures::report(&line, &source, &design, &surface, &watch.notes());
+    let mut report = figures::report(&line, job.input.formation.as_ref(), &source, &design, &surface, &watch.notes());
 
     watch.stage_of(WRITING);
     let crs = source.crs.as_deref();

@@ -1,6 +1,7 @@
 //! Why a job was not done.
 
 use super::DesignError;
+use crate::formation::FormationError;
 use crate::model::{Defects, Slope};
 use crate::read::ReadError;
 use crate::report::BuriedStretch;
@@ -17,6 +18,9 @@ pub enum Error {
     /// The line is not one a surface can be built on.
     #[error(transparent)]
     Invalid(#[from] Defects),
+    /// The line has no formation: no road about a centre line, no place for a breakline.
+    #[error(transparent)]
+    Formation(#[from] FormationError),
     /// The line and what is wanted do not go together.
     #[error(transparent)]
     Design(#[from] DesignError),

@@ -1,16 +1,24 @@
 //! The engine's figures in the words of the report.
 
-use crate::model::{Design, Line, Note, Sheet};
+use crate::formation::Formation;
+use crate::model::{Chain, Design, Line, Note, Sheet};
 use crate::read::Source;
 use crate::report::{
-    Balance, BuriedStretch, Certificate, Depths, Detail, Input, LineFigures, Reference, Report, SCHEMA, Slopes, SurfaceFigures,
-    Timing, Tool, Units, Volumes, Warning,
+    Balance, BuriedStretch, Certificate, CrossfallFigures, Depths, Detail, Input, LineFigures, Reference, Report, SCHEMA, Slopes,
+    SurfaceFigures, Timing, Tool, Units, Volumes, Warning,
 };
 use crate::surface::Surface;
 use std::collections::BTreeMap;
 
 /// The report of a run; its times are still to be filled in.
-pub(super) fn report(line: &Line, source: &Source, design: &Design, surface: &Surface, notes: &[Note]) -> Report {
+pub(super) fn report(
+    line: &Line,
+    formation: Option<&Formation>,
+    source: &Source,
+    design: &Design,
+    surface: &Surface,
+    notes: &[Note],
+) -> Report {
     let slope = Some(design.slope.into());
     let slopes = match design.sheet {
         Sheet::Falling => Slopes { fill: slope, cut: None },
@@ -34,7 +42,7 @@ pub(super) fn report(line: &Line, source: &Source, design: &Design, surface: &Su
         inputs: vec![input(source)],
         units: Units::default(),
         slopes,
-        line: line_figures(line, surface, buried),
+        line: line_figures(line, formation, surface, buried),
         extent: design.extent.into(),
         levels,
         surface: SurfaceFigures {
@@ -112,16 +120,27 @@ pub(super) fn buried(line: &Line, surface: &Surface) -> Vec<BuriedStretch> {
     surface.buried.iter().map(stretch).collect()
 }
 
-fn line_figures(line: &Line, surface: &Surface, buried: Vec<BuriedStretch>) -> LineFigures {
+fn line_figures(line: &Line, formation: Option<&Formation>, surface: &Surface, buried: Vec<BuriedStretch>) -> LineFigures {
     let (z_min, z_max) = line.elevation_range();
-    let segments = line.chains.iter().flat_map(|chain| (0..chain.segment_count()).map(|i| chain.segment(i)));
+    let segments = line.chains.iter().flat_map(|chain| {
+        // The ends of a road lie across it.
+        let across = |i: usize| chain.axis.as_ref().is_some_and(|axis| axis.stations[i] == axis.stations[i + 1]);
+        (0..chain.segment_count()).filter(move |&i| !across(i)).map(|i| chain.segment(i))
+    });
+    let length = |chain: &Chain| match &chain.axis {
+        Some(axis) => axis.length,
+        None => chain.stations().last().copied().unwrap_or(0.0),
+    };
     let gradients = segments.map(|(a, b)| (b.z - a.z).abs() / a.truncate().distance(b.truncate()));
     LineFigures {
         chains: line.chains.len(),
         vertices: line.vertex_count(),
         simplified: surface.simplified,
         simplified_max: surface.simplified_max,
-        length: line.chains.iter().filter_map(|chain| chain.stations().last().copied()).sum(),
+        length: line.chains.iter().map(length).sum(),
+        width: formation.map(|road| road.width),
+        crossfall: formation.map(|road| CrossfallFigures { left: road.crossfall.left, right: road.crossfall.right }),
+        breaklines: line.breaklines.iter().filter(|breakline| breakline.stations.is_none()).count(),
         z_min,
         z_max,
         gradient_max: gradients.fold(0.0, f64::max),
