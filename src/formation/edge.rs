@@ -48,7 +48,7 @@ pub(super) enum Fault {
     Narrow { stations: [f64; 2], distance: f64 },
     /// The line turns straight back at this vertex.
     Back { vertex: usize },
-    /// No edge is left from this vertex to the end of the line.
+    /// From this vertex on no edge comes out on the inside of the bend.
     NoRoom { vertex: usize },
 }
 
@@ -60,11 +60,13 @@ struct Stroke {
     to: EdgePoint,
     /// Where it begins.
     start: EdgePoint,
+    /// Whether it lies across an end of the road.
+    is_end: bool,
 }
 
 impl Stroke {
     fn new(from: EdgePoint, to: EdgePoint) -> Self {
-        Self { from, to, start: from }
+        Self { from, to, start: from, is_end: false }
     }
 
     /// The point of the stroke at a plan position on it.
@@ -91,13 +93,13 @@ pub(super) fn left(centre: &Centre, half: f64, drop: f64, chord: f64) -> Result<
     let normals: Vec<DVec2> = centre.plan.windows(2).map(|w| (w[1] - w[0]).normalize_or_zero().perp()).collect();
     let beside = |vertex: usize, normal: DVec2| edge_point(centre, vertex, centre.plan[vertex] + half * normal, drop);
     let mut from = beside(0, normals[0]);
-    edge.add(Stroke::new(on_centre(centre, 0), from))?;
+    edge.add(Stroke { is_end: true, ..Stroke::new(on_centre(centre, 0), from) })?;
     for i in 1..=n {
         let before = normals[i - 1];
         let square = beside(i, before);
         if i == n {
             edge.add(Stroke::new(from, square))?;
-            edge.add(Stroke::new(square, on_centre(centre, n)))?;
+            edge.add(Stroke { is_end: true, ..Stroke::new(square, on_centre(centre, n)) })?;
             break;
         }
         let after = normals[i];
@@ -161,6 +163,7 @@ impl<'a> Edge<'a> {
     }
 
     fn add(&mut self, mut stroke: Stroke) -> Result<(), Fault> {
+        let at_corner = self.corner.is_some();
         if let Some(mitre) = self.corner.take().filter(|_| self.gap.is_none()) {
             if self.mitre_fits(&stroke, &mitre) {
                 stroke.start = mitre;
@@ -174,25 +177,58 @@ impl<'a> Edge<'a> {
             return Ok(());
         };
         if let Some((k, plan)) = self.crossing(&stroke, gap) {
-            let (a, b) = (self.strokes[k].at(plan), stroke.at(plan));
-            self.check_reach(k, &stroke, &a, &b)?;
-            self.strokes.truncate(k + 1);
-            let z = 0.5 * (a.z + b.z);
-            // On the straight ends of the road the station stays what it is there.
-            let station = if self.strokes[k].from.station == self.strokes[k].to.station {
-                a.station
-            } else if stroke.from.station == stroke.to.station {
-                b.station
-            } else {
-                0.5 * (a.station + b.station)
-            };
-            stroke.start = EdgePoint { plan, z, station, vertex: gap, fold: Some([z - a.z, z - b.z]) };
-            self.strokes.push(stroke);
-            self.gap = None;
+            self.check_reach(k, &stroke, plan)?;
+            self.meet(k, stroke, plan);
         } else if self.far(stroke.from.vertex, gap) {
             return Err(self.parallel(stroke.from.vertex, gap));
+        } else if stroke.is_end {
+            self.end_beside(stroke);
+        } else if at_corner {
+            self.begin_beside(stroke);
         }
         Ok(())
+    }
+
+    /// Ends stroke `k` where the new one begins.
+    fn meet(&mut self, k: usize, mut stroke: Stroke, plan: DVec2) {
+        let (a, b) = (self.strokes[k].at(plan), stroke.at(plan));
+        self.strokes.truncate(k + 1);
+        let z = 0.5 * (a.z + b.z);
+        // On the straight ends of the road the station stays what it is there.
+        let station = if self.strokes[k].is_end {
+            a.station
+        } else if stroke.is_end {
+            b.station
+        } else {
+            0.5 * (a.station + b.station)
+        };
+        stroke.start = EdgePoint { plan, z, station, vertex: a.vertex, fold: Some([z - a.z, z - b.z]) };
+        self.strokes.push(stroke);
+        self.gap = None;
+    }
+
+    /// The road ends within a bend: from where its edge was left, straight across to its end.
+    fn end_beside(&mut self, end: Stroke) {
+        let Some(last) = self.strokes.last() else { return };
+        let across = Stroke::new(last.to, on_centre(self.centre, last.to.vertex));
+        if let Some(plan) = meeting((across.start.plan, across.to.plan), (end.from.plan, end.to.plan), |turn| turn != 0.0) {
+            self.strokes.push(across);
+            self.meet(self.strokes.len() - 1, end, plan);
+        }
+    }
+
+    /// The road begins within a bend: from its beginning straight across to where its edge can start.
+    fn begin_beside(&mut self, stroke: Stroke) {
+        let across = Stroke::new(on_centre(self.centre, stroke.from.vertex), stroke.from);
+        let begin = self.strokes[0];
+        let Some(plan) = meeting((begin.start.plan, begin.to.plan), (across.from.plan, across.to.plan), |turn| turn != 0.0)
+        else {
+            return;
+        };
+        if self.check_reach(0, &across, plan).is_ok() {
+            self.meet(0, across, plan);
+            self.strokes.push(stroke);
+        }
     }
 
     /// Whether the mitre lies on both strokes that meet there, and the bend is not too sharp.
@@ -205,23 +241,18 @@ impl<'a> Edge<'a> {
             && mitre.plan.distance(corner) <= SHARPEST * self.half
     }
 
-    /// The last stroke that the new one crosses from its right to its left, and where.
+    /// The last stroke that the new one crosses so that the edge can change from that to this, and where: on the inside of a
+    /// bend it then turns towards its own side, at the ends of the road away from it.
     fn crossing(&self, stroke: &Stroke, gap: usize) -> Option<(usize, DVec2)> {
-        let v = stroke.to.plan - stroke.from.plan;
         let mut end = self.strokes.last()?.to.plan;
         for (k, other) in self.strokes.iter().enumerate().rev() {
             if self.far(other.to.vertex, gap) {
                 return None;
             }
-            let u = end - other.start.plan;
-            let across = u.perp_dot(v);
-            if across > 0.0 {
-                let w = stroke.from.plan - other.start.plan;
-                let (t, r) = (w.perp_dot(v) / across, w.perp_dot(u) / across);
-                let on = |part: f64| (-MEETING..=1.0 + MEETING).contains(&part);
-                if on(t) && on(r) {
-                    return Some((k, other.start.plan + u * t.clamp(0.0, 1.0)));
-                }
+            let at_end = other.is_end || stroke.is_end;
+            let wanted = |turn: f64| if at_end { turn < 0.0 } else { turn > 0.0 };
+            if let Some(plan) = meeting((other.start.plan, end), (stroke.from.plan, stroke.to.plan), wanted) {
+                return Some((k, plan));
             }
             end = other.start.plan;
         }
@@ -234,13 +265,13 @@ impl<'a> Edge<'a> {
     }
 
     /// All vertices cut off must lie near the crossing point.
-    fn check_reach(&self, k: usize, stroke: &Stroke, a: &EdgePoint, b: &EdgePoint) -> Result<(), Fault> {
+    fn check_reach(&self, k: usize, stroke: &Stroke, plan: DVec2) -> Result<(), Fault> {
         let range = self.strokes[k].to.vertex..=stroke.from.vertex;
         let cut_off = self.centre.plan.get(range).unwrap_or(&[]);
-        if cut_off.iter().all(|p| p.distance(a.plan) <= SHARPEST * self.half) {
+        if cut_off.iter().all(|p| p.distance(plan) <= SHARPEST * self.half) {
             return Ok(());
         }
-        let stations = [a.station, b.station];
+        let stations = [self.strokes[k].at(plan).station, stroke.at(plan).station];
         let [p, q] = stations.map(|station| self.centre.at(station));
         Err(Fault::Narrow { stations, distance: p.distance(q) })
     }
@@ -249,6 +280,9 @@ impl<'a> Edge<'a> {
     fn parallel(&self, vertex: usize, gap: usize) -> Fault {
         let p = self.centre.plan[vertex];
         let (station, distance) = self.centre.nearest(p, 0..gap);
+        if distance >= 2.0 * self.half {
+            return Fault::NoRoom { vertex: gap };
+        }
         Fault::Narrow { stations: [station, self.centre.stations[vertex]], distance }
     }
 
@@ -289,6 +323,18 @@ fn ramp(points: &mut [EdgePoint], from: usize, indices: impl Iterator<Item = usi
         }
         points[i].z += step * (1.0 - length / over);
     }
+}
+
+/// Where two strokes meet, if the edge turns there as wanted (the sign of the cross product of their directions).
+fn meeting((a, b): (DVec2, DVec2), (c, d): (DVec2, DVec2), wanted: impl Fn(f64) -> bool) -> Option<DVec2> {
+    let (u, v, w) = (b - a, d - c, c - a);
+    let turn = u.perp_dot(v);
+    if !wanted(turn) {
+        return None;
+    }
+    let (t, r) = (w.perp_dot(v) / turn, w.perp_dot(u) / turn);
+    let on = |part: f64| (-MEETING..=1.0 + MEETING).contains(&part);
+    (on(t) && on(r)).then(|| a + u * t.clamp(0.0, 1.0))
 }
 
 impl Centre {

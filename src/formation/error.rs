@@ -49,9 +49,9 @@ pub enum FormationError {
     },
     /// A bend leaves no room for an edge on its inside.
     #[error(
-        "the road of `{name}` has no inner edge\n  --> {at}\n   = the bend at station {station:.3} of {length:.3} is tighter than \
-         half the width of {width} up to the end of the line\n   = help: make the line longer at its ends, ease the bend, or give \
-         a smaller `--width`"
+        "the road of `{name}` has no inner edge\n  --> {at}\n   = from the bend at station {station:.3} of {length:.3} on, \
+         the inside lies within half the width of {width}\n   = help: ease the bend, take small zigzags out of the line, make it \
+         longer at its ends, or give a smaller `--width`"
     )]
     NoRoom {
         /// Name of the centre line.
@@ -71,15 +71,15 @@ pub enum FormationError {
 }
 
 fn narrow_cure(distance: f64, width: f64) -> String {
-    /// Digits of a suggested width: three, rounded down.
+    /// Digits of a suggested width: three, rounded down to less.
     fn down(value: f64) -> f64 {
         let unit = 10_f64.powi(value.log10().floor() as i32 - 2);
-        (value / unit).floor() * unit
+        ((value / unit).ceil() - 1.0) * unit
     }
     if distance < width && distance > 1e-3 * width {
-        let least = format!("{:.3}", down(distance));
-        let least = least.trim_end_matches('0').trim_end_matches('.');
-        return format!("give `--width` {least} or less, move the legs apart, or build them one by one");
+        let most = format!("{:.3}", down(distance));
+        let most = most.trim_end_matches('0').trim_end_matches('.');
+        return format!("give `--width` {most} or less, move the legs apart, or build them one by one");
     }
-    "move the legs apart, ease the bend, or build the legs one by one".to_owned()
+    "move the legs apart, take loops and small zigzags out of the line, or build the legs one by one".to_owned()
 }

@@ -64,6 +64,7 @@ fn road(
     let length = centre.stations[centre.stations.len() - 1];
     let half = 0.5 * formation.width;
     let refused = |fault| refusal(fault, chain, formation, &centre, locator);
+    check_centre(&centre).map_err(refused)?;
     let fall = formation.crossfall;
     let lefts = left(&centre, half, fall.left * half, formation.chord).map_err(refused)?;
     let mut rights = left(&centre.mirrored(), half, fall.right * half, formation.chord).map_err(refused)?;
@@ -110,6 +111,22 @@ fn distinct(mut points: Vec<EdgePoint>) -> Vec<EdgePoint> {
     points
 }
 
+/// A centre line that crosses itself has no platform.
+fn check_centre(centre: &Centre) -> Result<(), Fault> {
+    let ends: Vec<(DVec2, DVec2)> = centre.plan.windows(2).map(|w| (w[0], w[1])).collect();
+    let mut found = None;
+    SegmentTree::new(&ends).pairs(|i, j| {
+        if i.abs_diff(j) > 1
+            && let Some(at) = meetings(ends[i], ends[j]).next()
+        {
+            let station = |k: usize| centre.stations[k] + ends[k].0.distance(at);
+            found = Some([station(i.min(j)), station(i.max(j))]);
+        }
+        found.is_none()
+    });
+    found.map_or(Ok(()), |stations| Err(Fault::Narrow { stations, distance: 0.0 }))
+}
+
 /// The edges of a sound road cross nowhere.
 fn check_itself(points: &[EdgePoint], centre: &Centre, width: f64) -> Result<(), Fault> {
     let n = points.len();
@@ -136,10 +153,13 @@ fn check_itself(points: &[EdgePoint], centre: &Centre, width: f64) -> Result<(),
     let window = |s: f64, lo: f64, hi: f64| segment((s - width).max(lo))..segment((s + width).min(hi)) + 1;
     let middle = 0.5 * (a + b);
     let mut best = ([a, b], centre.at(a).distance(centre.at(b)));
-    for i in window(a, 0.0, middle) {
-        let (station, distance) = centre.nearest(centre.plan[i], window(b, middle, f64::INFINITY));
-        if distance < best.1 {
-            best = ([centre.stations[i], station], distance);
+    let windows = [window(a, 0.0, middle), window(b, middle, f64::INFINITY)];
+    for (from, to) in [(0, 1), (1, 0)] {
+        for i in windows[from].start..=windows[from].end {
+            let (station, distance) = centre.nearest(centre.plan[i], windows[to].clone());
+            if distance < best.1 {
+                best = ([centre.stations[i], station], distance);
+            }
         }
     }
     Err(Fault::Narrow { stations: best.0, distance: best.1 })

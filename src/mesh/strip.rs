@@ -6,29 +6,38 @@ use glam::{DVec2, DVec3};
 /// A vertex of a side of a strip: its number, and how far along the strip it stands.
 pub type Beside = (u32, f64);
 
+/// Lower triangles (length units) count as degenerate: their corners lie on one line but for rounding.
+const LEAST_HEIGHT: f64 = 1e-8;
+
 /// Triangulates the region between `right` and `left`, two sides that run in the same direction from a common first vertex to a
 /// common last one, by going up both at the same pace; where stations tie, by the shorter diagonal.
 ///
-/// `None` where a triangle would turn over both ways: the sides do not run beside each other then. All triangles are
-/// counter-clockwise, and their outer edges are the two sides; so where the two sides together form a simple polygon they cover
-/// it exactly once. Linear in the number of vertices.
+/// `None` where a triangle would turn over or be degenerate both ways: the sides do not run beside each other then. All triangles
+/// are counter-clockwise, and their outer edges are the two sides; so where the two sides together form a simple polygon they
+/// cover it exactly once. Linear in the number of vertices.
 pub fn between(points: &[DVec3], right: &[Beside], left: &[Beside]) -> Option<Vec<[u32; 3]>> {
     let (m, n) = (right.len().checked_sub(1)?, left.len().checked_sub(1)?);
-    if right[0].0 != left[0].0 || right[m].0 != left[n].0 || m + n < 3 {
+    if m < 2 || n < 2 || right[0].0 != left[0].0 || right[m].0 != left[n].0 {
         return None;
     }
     let plan = |v: u32| -> DVec2 { points[v as usize].truncate() };
-    let positive = |[a, b, c]: [u32; 3]| turn(plan(a), plan(b), plan(c)) == Turn::Left;
+    let sound = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(plan);
+        let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
+        turn(a, b, c) == Turn::Left && (b - a).perp_dot(c - a) > LEAST_HEIGHT * longest
+    };
     let mut triangles = Vec::with_capacity(m + n - 2);
-    // Both sides begin in the common vertex: the first step on one of them makes no triangle. It is the step on the left.
-    let (mut i, mut j) = (0, 1);
-    while (i, j) != (m - 1, n) && (i, j) != (m, n - 1) {
+    // The common vertices have one triangle each: the other vertices at the ends may lie on one line with them.
+    triangles.push([right[0].0, right[1].0, left[1].0]);
+    let (mut i, mut j) = (1, 1);
+    while (i, j) != (m - 1, n - 1) {
         let (a, b) = (right[i].0, left[j].0);
-        let along_right = (i < m).then(|| [a, right[i + 1].0, b]).filter(|t| t[1] != b && positive(*t));
-        let along_left = (j < n).then(|| [a, left[j + 1].0, b]).filter(|t| t[1] != a && positive(*t));
+        let along_right = (i + 1 < m).then(|| [a, right[i + 1].0, b]).filter(sound);
+        let along_left = (j + 1 < n).then(|| [a, left[j + 1].0, b]).filter(sound);
         let on_right = match (along_right, along_left) {
             (Some(_), Some(_)) => {
-                let (s, t) = (right[i + 1].1, left[j + 1].1);
+                // Half way along the step: so both sides share the vertices of the other at a bend that cuts one of them off.
+                let (s, t) = (right[i].1 + right[i + 1].1, left[j].1 + left[j + 1].1);
                 let diagonals =
                     || plan(right[i + 1].0).distance_squared(plan(b)) <= plan(left[j + 1].0).distance_squared(plan(a));
                 s < t || (s == t && diagonals())
@@ -45,7 +54,9 @@ pub fn between(points: &[DVec3], right: &[Beside], left: &[Beside]) -> Option<Ve
             j += 1;
         }
     }
-    Some(triangles)
+    triangles.push([right[m - 1].0, right[m].0, left[n - 1].0]);
+    let ends_sound = [triangles.first(), triangles.last()].into_iter().flatten().all(sound);
+    ends_sound.then_some(triangles)
 }
 
 #[cfg(test)]
@@ -95,7 +106,11 @@ mod tests {
     fn refuses_what_is_no_strip() {
         // The left side lies on the right.
         let p = points(&[(0., 0.), (4., 0.), (2., -1.)]);
-        assert_eq!(between(&p, &[(0, 0.0), (1, 4.0)], &[(0, 0.0), (2, 2.0), (1, 4.0)]), None);
+        let p = [p, points(&[(2., 0.), (2., 1.), (0., 5.)])].concat();
+        assert_eq!(between(&p, &[(0, 0.0), (3, 2.0), (1, 4.0)], &[(0, 0.0), (2, 2.0), (1, 4.0)]), None);
+        assert!(between(&p, &[(0, 0.0), (3, 2.0), (1, 4.0)], &[(0, 0.0), (4, 2.0), (1, 4.0)]).is_some());
+        // No common end.
+        assert_eq!(between(&p, &[(0, 0.0), (3, 2.0), (1, 4.0)], &[(0, 0.0), (4, 2.0), (5, 4.0)]), None);
         assert_eq!(between(&p, &[(0, 0.0), (1, 4.0)], &[(0, 0.0), (1, 4.0)]), None);
         assert_eq!(between(&p, &[(0, 0.0)], &[]), None);
     }

@@ -49,8 +49,8 @@ pub fn check_steepness(line: &Line, label: &str, slope: Slope) -> Result<(), Def
                     at: locator.pair(chain.places[from], chain.places[end % chain.places.len()]),
                     figures: Some(format!(
                         "stations {:.3} to {:.3}{}: {gradient} {} ({:.1} %, {:.2}°); slope asked for 1V:{}H ({:.1} %, {:.2}°)",
-                        stations[from],
-                        stations[end],
+                        stations[from].min(if chain.axis.is_some() { stations[end] } else { stations[from] }),
+                        stations[end].max(if chain.axis.is_some() { stations[from] } else { stations[end] }),
                         along_axis(chain, stations[from], stations[end]),
                         significant(worst),
                         100.0 * worst,
