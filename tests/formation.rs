@@ -328,7 +328,15 @@ fn refusals_name_places_figures_and_cures() {
     let loop_back = [[0., 0., 1.], [100., 0., 1.], [100., 60., 1.], [50., 60., 1.], [50., 3., 1.]];
     assert!(message(&loop_back, 8.0).contains("near stations 50.000 and 267.000 the centre line is 3.000 apart"));
     assert!(message(&[[0., 0., 1.], [50., 0., 1.], [20., 0., 1.]], 8.0).contains("straight back"));
-    assert!(message(&[[0., 0., 1.], [1., 0., 1.], [1., 1., 1.], [0.5, 1.5, 1.]], 8.0).contains("xx"));
+    // A bow tie.
+    let crossed = message(&[[0., 0., 1.], [50., 0., 1.], [50., 20., 1.], [25., -20., 1.]], 2.0);
+    assert!(crossed.contains("near stations 37.500 and 93.585 the centre line is 0.000 apart"), "{crossed}");
+    let error = FormationError::NoRoom { name: "a".into(), at: "b, vertex 2".into(), station: 5.0, length: 9.0, width: 8.0 };
+    assert!(
+        error
+            .to_string()
+            .starts_with("the road of `a` has no inner edge\n  --> b, vertex 2\n   = from the bend at station 5.000")
+    );
     let pad = ring(&[[0., 0., 1.], [9., 0., 1.], [9., 9., 1.]]);
     assert!(matches!(widened(&[pad], &road(8.0, 0.0, 0.0)), Err(FormationError::NoCentreLine { rings: 1, .. })));
     // Two roads that cross.

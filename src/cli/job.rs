@@ -22,6 +22,9 @@ const LEAST_WIDTH: f64 = 0.001;
 /// How far breaklines may miss rings where no tolerance is given, in the length unit: the default of `--tolerance`.
 const DEFAULT_TOLERANCE: f64 = 0.01;
 
+/// Part of the tolerance that rounded corners of roads may use: a third.
+const CHORDS: f64 = 3.0;
+
 /// More threads than any machine this runs on has processors.
 const MOST_THREADS: usize = 1024;
 
@@ -87,13 +90,13 @@ impl Checks {
         Some((own.or(slope)?, sheet))
     }
 
-    fn input(&mut self, args: &InputArgs, tolerance: Option<f64>) -> LineInput {
+    fn input(&mut self, args: &InputArgs) -> LineInput {
         let format = args.input_format.map(|format| match format {
             FormatArg::Geojson => InputFormat::GeoJson,
             FormatArg::Csv => InputFormat::Csv,
         });
         let csv_order = self.order("--csv-order", args.csv_order.as_ref());
-        let tolerance = tolerance.unwrap_or(DEFAULT_TOLERANCE);
+        let tolerance = DEFAULT_TOLERANCE;
         let formation = self.formation(args, tolerance);
         let options = ReadOptions { format, csv_order };
         LineInput { path: args.input.clone(), options, closed: args.closed, formation, tolerance }
@@ -112,7 +115,7 @@ impl Checks {
             ));
         }
         let crossfall = crossfall.unwrap_or(Some(Crossfall::default()));
-        width.zip(crossfall).map(|(width, crossfall)| Formation { width, crossfall, chord: tolerance / 3.0 })
+        width.zip(crossfall).map(|(width, crossfall)| Formation { width, crossfall, chord: tolerance / CHORDS })
     }
 
     fn finish<T>(self, job: Option<T>) -> Result<T, UsageErrors> {
@@ -135,8 +138,7 @@ fn placed(message: &str, option: &str, text: &str) -> String {
 /// Everything wrong with the arguments.
 pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     let mut checks = Checks::default();
-    let tolerance = checks.number("--tolerance", Some(&args.tolerance), Rule::AtLeast(LEAST_LENGTH));
-    let input = checks.input(&args.input, tolerance);
+    let mut input = checks.input(&args.input);
     let slope = checks.slopes(&args.slope);
     let extent = [
         checks.number("--to-elevation", args.to_elevation.as_ref(), Rule::Coordinate).map(Extent::Elevation),
@@ -144,6 +146,11 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         checks.number("--distance", args.distance.as_ref(), Rule::AtLeast(LEAST_LENGTH)).map(Extent::Distance),
     ];
     let interval = checks.number("--interval", args.interval.as_ref(), Rule::Positive);
+    let tolerance = checks.number("--tolerance", Some(&args.tolerance), Rule::AtLeast(LEAST_LENGTH));
+    if let Some(tolerance) = tolerance {
+        input.tolerance = tolerance;
+        input.formation.iter_mut().for_each(|road| road.chord = tolerance / CHORDS);
+    }
     let reference = checks.number("--reference", args.reference.as_ref(), Rule::Coordinate);
     let side = args.side.map(|side| match side {
         SideArg::Left => Side::Left,
@@ -198,7 +205,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
 /// Everything wrong with the arguments.
 pub(super) fn sample_job(args: &SampleArgs) -> Result<SampleJob, UsageErrors> {
     let mut checks = Checks::default();
-    let input = checks.input(&args.input, None);
+    let input = checks.input(&args.input);
     let slope = checks.slopes(&args.slope);
     let place = match (&args.at, &args.raster) {
         (Some(path), _) => {
