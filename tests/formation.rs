@@ -246,7 +246,7 @@ fn random_roads_are_sound_or_refused() {
         let centre = wander(&mut random, 40, step, turn);
         let length: f64 = centre.points.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum();
         let fall = random.between(-0.04, 0.04);
-        match widened(&[centre.clone()], &road(8.0, fall, fall)) {
+        match widened(std::slice::from_ref(&centre), &road(8.0, fall, fall)) {
             Err(FormationError::Invalid(defects)) => panic!("case {case} not seen before the rings: {defects}"),
             Err(_) => refused += 1,
             Ok(line) => {

@@ -42,7 +42,7 @@ impl FromStr for Crossfall {
     type Err = CrossfallError;
 
     /// Reads `2.5%` (both edges lower), `-2.5%` (both higher), `2.5%,-2.5%` (left, right), in any notation of slopes; `0` is
-    /// level. With one comma and no sign of two slopes the comma is a decimal one.
+    /// level. A comma that can be a decimal one is; a semicolon parts the sides too.
     ///
     /// # Errors
     /// [`CrossfallError`], in words for the person who typed it.
@@ -96,7 +96,9 @@ mod tests {
             ("1:40", both(1.0 / 40.0)),
             ("2%,-2%", Ok(Crossfall { left: 0.02, right: -0.02 })),
             ("2%;-2%", Ok(Crossfall { left: 0.02, right: -0.02 })),
-            (" 1:50 , 0 ", Ok(Crossfall { left: 0.02, right: 0.0 })),
+            (" 2% , 0 ", Ok(Crossfall { left: 0.02, right: 0.0 })),
+            // One comma between digits is a decimal one.
+            ("1:50,5", both(1.0 / 50.5)),
         ] {
             assert_eq!(text.parse::<Crossfall>(), expected, "{text}");
         }

@@ -87,7 +87,7 @@ fn line(page: &mut Page<'_>, line: &LineFigures) {
         page.length("width of roads", width);
     }
     if let Some(fall) = line.crossfall.filter(|fall| fall.left != 0.0 || fall.right != 0.0) {
-        let percent = |fall: f64| short(100.0 * fall);
+        let percent = |fall: f64| format!("{:.2}", 100.0 * fall);
         let both = if fall.left == fall.right { percent(fall.left) } else { [fall.left, fall.right].map(percent).join(", ") };
         page.figure("crossfall", &both, "%");
     }

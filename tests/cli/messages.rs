@@ -135,7 +135,8 @@ fn roads() {
         "error: the road of `line 1` lies on itself\n  --> u.csv, rows 2 to 5\n   = near stations 0.000 and 205.000 the centre \
          line is 5.000 apart, the width is 8\n   = help: give `--width` 4.99 or less, move the legs apart, or build them one by one",
     );
-    // An inner edge of radius 1 beside a centre line of radius 5 that rises by 20 %: the edge by 100 %.
+    // Corners every 0.1 rad on a radius of 5, each 0.1 higher. Inner mitres stand on the radius 5 − 4 / cos 0.05 = 0.99499, and
+    // 2 · 0.99499 · sin 0.05 = 0.09946 apart: 0.1 / 0.09946 = 1.005.
     let bend: String = (0..=20)
         .map(|i| (f64::from(i) * 0.1).sin_cos())
         .enumerate()
@@ -145,8 +146,8 @@ fn roads() {
     let run = site.run("build bend.csv --slope 1:1.5 --width 8");
     assert_eq!(run.code, 1, "{run:?}");
     for part in [
-        "an edge of the road `line 1` is as steep as the slope asked for, or steeper\n  --> bend.csv, rows 2 to 22",
-        "of the centre line (the inside of a bend is shorter than the centre line): steepest gradient 1 (100.0 %, 45.0",
+        "an edge of the road `line 1` is as steep as the slope asked for, or steeper\n  --> bend.csv, rows 3 to 21",
+        "of the centre line (the inside of a bend is shorter than the centre line): steepest gradient 1.005 (100.5 %, 45.16°)",
     ] {
         assert!(run.stderr.contains(part), "{}", run.stderr);
     }
