@@ -72,6 +72,10 @@ pub enum CurveKind {
     Breakline,
     /// Where the slope ends.
     Boundary,
+    /// Where the works meet the ground.
+    Daylight,
+    /// Where a platform changes from cut to fill.
+    Zero,
 }
 
 impl CurveKind {
@@ -84,6 +88,8 @@ impl CurveKind {
             Self::Hinge => "hinge",
             Self::Breakline => "breakline",
             Self::Boundary => "boundary",
+            Self::Daylight => "daylight",
+            Self::Zero => "zero",
         }
     }
 }
@@ -99,4 +105,6 @@ pub struct LineFeature {
     pub elevation: Option<f64>,
     /// Name of the chain a hinge comes from, or of the breakline.
     pub chain: Option<String>,
+    /// The part that meets the ground along a daylight line.
+    pub part: Option<Part>,
 }

@@ -51,7 +51,7 @@ fn push(
 ) {
     for path in chained(segments) {
         let points = path.into_iter().map(|v| tin.world(v as usize)).collect();
-        features.push(LineFeature { kind, points, elevation, chain: chain.clone() });
+        features.push(LineFeature { kind, points, elevation, chain: chain.clone(), part: None });
     }
 }
 
