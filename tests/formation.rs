@@ -328,6 +328,12 @@ fn refusals_name_places_figures_and_cures() {
     let loop_back = [[0., 0., 1.], [100., 0., 1.], [100., 60., 1.], [50., 60., 1.], [50., 3., 1.]];
     assert!(message(&loop_back, 8.0).contains("near stations 50.000 and 267.000 the centre line is 3.000 apart"));
     assert!(message(&[[0., 0., 1.], [50., 0., 1.], [20., 0., 1.]], 8.0).contains("straight back"));
+    let pad = ring(&[[20., -1., 1.], [22., -1., 1.], [22., 1., 1.], [20., 1., 1.]]);
+    let error = widened(&[open(&[[0., 0., 1.], [50., 0., 1.]]), pad], &road(8.0, 0.0, 0.0)).unwrap_err().to_string();
+    assert!(error.starts_with("ring `line 2` lies inside the road of `line 1`\n  --> road.geojson, part 2, vertex 0"), "{error}");
+    // Legs that touch.
+    let touching = message(&[[0., 0., 1.], [100., 0., 1.], [100., 40., 1.], [0., 40., 1.], [0., 8., 1.], [60., 8., 1.]], 8.0);
+    assert!(touching.contains("8.000 apart, the width is 8\n   = help: give `--width` 7.99 or less"), "{touching}");
     // A bow tie.
     let crossed = message(&[[0., 0., 1.], [50., 0., 1.], [50., 20., 1.], [25., -20., 1.]], 2.0);
     assert!(crossed.contains("near stations 37.500 and 93.585 the centre line is 0.000 apart"), "{crossed}");

@@ -354,14 +354,14 @@ fn foot(p: DVec2, a: DVec2, b: DVec2) -> (f64, f64) {
 }
 
 /// Which ring's platform a place belongs to.
-struct Inside<'a> {
+pub(super) struct Inside<'a> {
     chains: &'a [Chain],
     segments: Vec<(usize, DVec2, DVec2)>,
     tree: SegmentTree,
 }
 
 impl<'a> Inside<'a> {
-    fn new(chains: &'a [Chain]) -> Self {
+    pub(super) fn new(chains: &'a [Chain]) -> Self {
         let rings = chains.iter().enumerate().filter(|(_, chain)| chain.closed());
         let segments: Vec<(usize, DVec2, DVec2)> = rings
             .flat_map(|(c, chain)| {
@@ -376,7 +376,7 @@ impl<'a> Inside<'a> {
     }
 
     /// The smallest polygon with `p` inside: its outer ring.
-    fn ring_at(&self, p: DVec2) -> Option<usize> {
+    pub(super) fn ring_at(&self, p: DVec2) -> Option<usize> {
         let mut odd = vec![false; self.chains.len()];
         self.tree.ray(p, |i| {
             let (c, a, b) = self.segments[i];

@@ -65,6 +65,23 @@ pub enum FormationError {
         /// The width asked for.
         width: f64,
     },
+    /// A ring lies on a road.
+    #[error(
+        "ring `{ring}` lies inside the road of `{name}`\n  --> {at}\n   = at x {x:.3}, y {y:.3}\n   \
+         = help: take one of them out, or build them one by one; for a line that shapes the road, set its `role` to `breakline`"
+    )]
+    RingInside {
+        /// Name of the ring.
+        ring: String,
+        /// Name of the centre line.
+        name: String,
+        /// Place of the ring.
+        at: String,
+        /// Its first vertex.
+        x: f64,
+        /// Its first vertex.
+        y: f64,
+    },
     /// Rings, those of roads among them, cross; or breaklines have no place.
     #[error(transparent)]
     Invalid(#[from] Defects),
@@ -76,7 +93,9 @@ fn narrow_cure(distance: f64, width: f64) -> String {
         let unit = 10_f64.powi(value.log10().floor() as i32 - 2);
         ((value / unit).ceil() - 1.0) * unit
     }
-    if distance < width && distance > 1e-3 * width {
+    /// Legs just one width apart touch; legs that cross leave no width at all. Parts of the width.
+    const USEFUL: std::ops::Range<f64> = 1e-3..1.0 + 1e-9;
+    if USEFUL.contains(&(distance / width)) {
         let most = format!("{:.3}", down(distance));
         let most = most.trim_end_matches('0').trim_end_matches('.');
         return format!("give `--width` {most} or less, move the legs apart, or build them one by one");

@@ -1,5 +1,6 @@
 //! From a centre line to the ring of its road.
 
+use super::breaklines::Inside;
 use super::edge::{Centre, EdgePoint, Fault, left};
 use super::{Formation, FormationError, Formed};
 use crate::kernel::orientation::{Turn, turn};
@@ -51,7 +52,24 @@ pub fn widen(line: &Line, label: &str, formation: &Formation) -> Result<Formed, 
         polygon += 1;
     }
     check_rings(&formed.line, label)?;
+    check_free(&formed.line, label)?;
     Ok(formed)
+}
+
+/// No ring may lie on a road: its slopes would.
+fn check_free(line: &Line, label: &str) -> Result<(), FormationError> {
+    let roads: Vec<Chain> = line.chains.iter().filter(|chain| chain.axis.is_some()).cloned().collect();
+    let inside = Inside::new(&roads);
+    for (chain, locator) in line.chains.iter().zip(Locator::of_chains(label, &line.chains)) {
+        let (first, place) = (chain.vertices[0], chain.places[0]);
+        if chain.axis.is_none()
+            && let Some(road) = inside.ring_at(first.truncate())
+        {
+            let (ring, name, at) = (chain.name.clone(), roads[road].name.clone(), locator.vertex(place));
+            return Err(FormationError::RingInside { ring, name, at, x: first.x, y: first.y });
+        }
+    }
+    Ok(())
 }
 
 fn road(
