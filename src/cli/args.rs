@@ -158,6 +158,12 @@ pub(super) struct InputArgs {
     /// Make rings of lines that do not end where they begin
     #[arg(long, help_heading = help::INPUT)]
     pub(super) closed: bool,
+    /// Make roads of this width about open lines; platform and slopes are built from their edges
+    #[arg(long, value_name = "W", allow_negative_numbers = true, help_heading = help::INPUT)]
+    pub(super) width: Option<String>,
+    /// Fall from the centre line of roads to their edges: 2.5%, 1:40, or LEFT,RIGHT such as 2.5%,-2.5%
+    #[arg(long, value_name = "C", requires = "width", allow_hyphen_values = true, help_heading = help::INPUT)]
+    pub(super) crossfall: Option<String>,
 }
 
 #[derive(Debug, Args)]

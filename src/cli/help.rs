@@ -22,6 +22,8 @@ pub(super) const AFTER_BUILD: &str = "\
 Examples:
   slopegen build road.geojson --slope 1:1.5
       embankment on both sides of a road, 10 below its lowest vertex: road.obj, report on standard output
+  slopegen build road.geojson --slope 1:1.5 --width 8 --crossfall 2.5%
+      the same for a road 8 wide: platform with a crown, slopes from its edges
   slopegen build pad.geojson --slope 1:2 --to-elevation 405 -o pad.ply --lines pad_lines.geojson --report pad.json
       building pad above level ground, with line work and report
   slopegen build pit.csv --closed --side inside --slope 45deg --height 6 -o pit.obj

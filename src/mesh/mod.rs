@@ -4,4 +4,5 @@ pub mod check;
 pub mod polygon;
 pub mod quality;
 pub mod region;
+pub mod strip;
 pub mod volume;

@@ -1,6 +1,7 @@
 //! Why a job was not done.
 
 use super::DesignError;
+use crate::formation::FormationError;
 use crate::ground::GroundError;
 use crate::model::{Defects, Slope};
 use crate::read::ReadError;
@@ -18,6 +19,9 @@ pub enum Error {
     /// The line is not one a surface can be built on.
     #[error(transparent)]
     Invalid(#[from] Defects),
+    /// The line has no formation: no road about a centre line, no place for a breakline.
+    #[error(transparent)]
+    Formation(#[from] FormationError),
     /// The line and what is wanted do not go together.
     #[error(transparent)]
     Design(#[from] DesignError),
@@ -53,6 +57,9 @@ fn placed(label: &str, cause: &SurfaceError) -> String {
 }
 
 fn placed_on(label: &str, ground: &str, cause: &GroundError) -> String {
+    if let GroundError::Terrain(defects) = cause {
+        return defects.to_string();
+    }
     located(&format!("{label} on {ground}"), &cause.to_string())
 }
 
