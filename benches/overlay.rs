@@ -35,7 +35,10 @@ fn main() {
         run(name, count.parse().expect("a number of vertices"));
         return;
     }
-    println!("{:>16} {:>10} {:>10} {:>8} {:>8} {:>8} {:>20} {:>20}", "case", "triangles", "cells", "CPU s", "wall s", "MB", "cut", "fill");
+    println!(
+        "{:>16} {:>10} {:>10} {:>8} {:>8} {:>8} {:>20} {:>20}",
+        "case", "triangles", "cells", "CPU s", "wall s", "MB", "cut", "fill"
+    );
     let this = std::env::current_exe().expect("own path");
     for (name, count) in CASES {
         let out = std::process::Command::new(&this).args([name, &count.to_string()]).output().expect("a run of one case");
@@ -109,7 +112,9 @@ fn pair(name: &str, count: usize) -> (Terrain, Terrain) {
         }
         // Long strips along a diagonal, as far as points on two lines give them.
         "slivers" => {
-            let strip = |u: f64, v: f64| if v < 0.5 { DVec2::new(0.4 * u, 0.4 - 0.4 * u) } else { DVec2::new(0.6 + 0.4 * u, 1.0 - 0.4 * u) };
+            let strip = |u: f64, v: f64| {
+                if v < 0.5 { DVec2::new(0.4 * u, 0.4 - 0.4 * u) } else { DVec2::new(0.6 + 0.4 * u, 1.0 - 0.4 * u) }
+            };
             (mesh(count / 10, 1, strip, plane), mesh(count, 2, even, |p| hills(p, 0.0)))
         }
         other => panic!("no case {other}"),
@@ -128,7 +133,7 @@ fn cpu() -> f64 {
 fn run(name: &str, count: usize) {
     let (a, b) = pair(name, count);
     let (before, start) = (cpu(), Instant::now());
-    let found = between(&a, &b).expect("two meshes over each other");
+    let found = between(&a, &b, None).expect("two meshes over each other");
     let (wall, used) = (start.elapsed().as_secs_f64(), cpu() - before);
     println!(
         "{:>16} {:>10} {:>10} {used:>8.2} {wall:>8.3} {:>8.0} {:>20.6} {:>20.6} {}",

@@ -87,6 +87,15 @@ pub(super) struct Ring {
 impl Ring {
     pub(super) const EMPTY: Self = Self { len: 0, corners: [[0.0; 4]; MOST], edges: [0; MOST] };
 
+    /// A whole triangle.
+    pub(super) fn whole(triangle: [Corner; 3]) -> Self {
+        let mut ring = Self::EMPTY;
+        ring.corners[..3].copy_from_slice(&triangle);
+        ring.edges[..3].copy_from_slice(&[0, 1, 2]);
+        ring.len = 3;
+        ring
+    }
+
     /// The part where coordinate `K` is positive.
     ///
     /// Without branches on signs, which nothing can predict: every corner and every crossing is written, and what does not

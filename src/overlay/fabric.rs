@@ -63,6 +63,11 @@ impl Fabric {
         self.triangles[t as usize].map(|v| self.vertices[v as usize])
     }
 
+    /// Box of all of it.
+    pub(super) fn whole(&self) -> Box2 {
+        Box2::around(self.vertices.iter().map(|v| v.truncate()))
+    }
+
     pub(super) fn bounds(&self, t: u32) -> Box2 {
         Box2::around(self.corners(t).map(DVec3::truncate))
     }
@@ -109,8 +114,7 @@ impl<'a> Linked<'a> {
     pub(super) fn new(fabric: &'a Fabric) -> Self {
         let opposite = opposites(fabric.vertices.len(), &fabric.triangles);
         let count = fabric.triangles.len();
-        let rim: Vec<u32> =
-            (0..count as u32).filter(|&t| opposite[3 * t as usize..3 * t as usize + 3].contains(&NONE)).collect();
+        let rim: Vec<u32> = (0..count as u32).filter(|&t| opposite[3 * t as usize..3 * t as usize + 3].contains(&NONE)).collect();
         let boxes = Boxes::new(count, |t| fabric.bounds(t as u32));
         let rim_boxes = Boxes::new(rim.len(), |i| fabric.bounds(rim[i]));
         Self { fabric, opposite, boxes, rim, rim_boxes }
