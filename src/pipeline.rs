@@ -7,6 +7,7 @@ pub mod error;
 mod figures;
 mod ground;
 pub mod sample;
+pub mod volume;
 mod watch;
 
 pub use build::{BuildJob, Built, build};
@@ -14,6 +15,7 @@ pub use design::{DesignError, MOST_LEVELS, Wishes};
 pub use error::{BuriedError, Error};
 pub use ground::read_ground;
 pub use sample::{Area, Lattice, MOST_NODES, SampleJob, Sampled, Where, lattice, sample};
+pub use volume::{Against, Compared, ComparisonError, VolumeJob, volume};
 pub use watch::{Observer, WRITING};
 
 use crate::model::{Line, Slope};

@@ -42,7 +42,7 @@ impl Code {
                 SurfaceError::Unclosed { .. } | SurfaceError::Unsound { .. } => Self::Check,
                 _ => Self::Work,
             },
-            Some(Error::Invalid(_) | Error::Design(_) | Error::Buried(_)) | None => Self::Work,
+            Some(Error::Invalid(_) | Error::Design(_) | Error::Overlay(_) | Error::Buried(_)) | None => Self::Work,
         }
     }
 

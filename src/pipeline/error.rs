@@ -1,6 +1,7 @@
 //! Why a job was not done.
 
 use super::DesignError;
+use super::volume::ComparisonError;
 use crate::model::{Defects, Slope};
 use crate::read::ReadError;
 use crate::report::BuriedStretch;
@@ -28,6 +29,9 @@ pub enum Error {
         /// Why.
         cause: SurfaceError,
     },
+    /// Two surfaces cannot be compared.
+    #[error(transparent)]
+    Overlay(#[from] ComparisonError),
     /// Stretches of the line are buried, and that was not to be.
     #[error(transparent)]
     Buried(#[from] BuriedError),
