@@ -2,7 +2,7 @@
 //!
 //! Every triangle of one mesh is laid over the other: from one place inside, a flood through the neighbours meets each triangle
 //! that shares plan area with it, clips it, and never looks at the rest. So the cost follows the cells of the common refinement,
-//! however uneven the meshes are. See `docs/theory.md`, section 14.
+//! however uneven the meshes are. See `docs/theory.md`, "Between two meshes".
 
 mod boxes;
 mod cell;

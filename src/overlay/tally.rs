@@ -1,6 +1,6 @@
 //! Sums over the cells of the common refinement.
 
-use super::cell::{CUT, Corner, HEIGHT, Patch, Ring};
+use super::cell::{CUT, HEIGHT, Patch, Ring};
 use super::fabric::Linked;
 use super::pieces::Pieces;
 use super::volume::{AREA_ROUNDING, Areas, Between, Depth, SAME_HEIGHT};
@@ -176,8 +176,8 @@ fn lay(corners: [DVec3; 3], walker: &mut Walker<'_>, under: &Linked<'_>, tally: 
     walker.over(&patch, |t, ring| {
         tally.cells += 1;
         if ring.edges().iter().all(|&e| e >= CUT) {
-            // The whole triangle lies inside one of the other mesh, which may be far larger: heights are taken from its plane.
-            cells.add(&level_with(*ring, &patch, under.fabric.corners(t)), &patch, tally);
+            // The whole triangle lies inside one of the other mesh, which may be far larger.
+            cells.add(&patch.above_plane(under.fabric.corners(t)), &patch, tally);
         } else {
             cells.add(ring, &patch, tally);
         }
@@ -245,14 +245,6 @@ fn halves(ring: &Ring) -> [[f64; 2]; 2] {
     ring.mirrored().above(&mut part);
     let below = part.measure();
     [[above.0, above.1], [below.0, below.1]]
-}
-
-/// The ring with heights above the plane of `plane`, taken directly.
-fn level_with(mut ring: Ring, patch: &Patch, plane: [DVec3; 3]) -> Ring {
-    let other = Patch::new(plane);
-    // Seen from the plane, the height of a point is that of the plane above it: the other way round.
-    ring.with_heights(|c: &Corner| -other.corner(patch.point(c))[HEIGHT] / other.double_area * patch.double_area);
-    ring
 }
 
 #[cold]

@@ -153,7 +153,7 @@ fn boxed(name: &str, [lo, hi]: &[DVec2; 2]) -> String {
 ///
 /// # Accuracy
 /// A cell is right to a few units in the last place times the ratio of the sizes of its two triangles; see `docs/theory.md`,
-/// section 14, and `tests/volume`.
+/// "Between two meshes", and `tests/volume`.
 pub fn between(design: &Terrain, existing: &Terrain, within: Option<&Terrain>) -> Result<Between, OverlayError> {
     let frame = if design.frame == existing.frame { existing.frame } else { common_frame(design, existing) };
     let boxes = [design, existing].map(|mesh| shifted_box(mesh, frame));
