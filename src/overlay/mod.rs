@@ -14,4 +14,4 @@ mod tally;
 pub mod volume;
 mod walker;
 
-pub use volume::{Areas, Between, Depth, OverlayError, Surface, between, to_elevation};
+pub use volume::{AREA_ROUNDING, Areas, Between, Depth, MOST_DOUBLE, OverlayError, SAME_HEIGHT, Surface, between, to_elevation};

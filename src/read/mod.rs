@@ -2,6 +2,7 @@
 
 mod columns;
 mod csv;
+mod decimal;
 mod decode;
 mod error;
 mod geojson;

@@ -83,7 +83,7 @@ impl Panel {
 const MIXED: f64 = 0.1;
 
 /// How much larger the extent in `z` must be than that in `y`.
-const TALL: f64 = 4.0;
+const TALL: f64 = 2.0;
 
 /// Refuses ground whose `y` is its height, as modelling programs write it: seen along `z` it is a side view, with triangles of
 /// either direction, and `z` is a northing.

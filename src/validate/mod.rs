@@ -8,6 +8,7 @@ mod vertices;
 
 pub use degrees::{Verdict, degrees};
 pub use steep::check_steepness;
+pub use vertices::no_data_markers;
 
 use crate::model::{Defects, Line, Note};
 use crate::read::RawInput;

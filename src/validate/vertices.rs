@@ -86,7 +86,26 @@ fn no_elevation_help(format: InputFormat) -> &'static str {
 
 /// Lowest and highest elevation that is no marker.
 fn elevation_range(raw: &RawInput) -> (f64, f64) {
-    let elevations = raw.lines.iter().flat_map(|line| &line.vertices).filter_map(|vertex| vertex.z);
+    range_of(raw.lines.iter().flat_map(|line| &line.vertices).filter_map(|vertex| vertex.z))
+}
+
+/// Elevations among these that stand for none, such as −9999 far below all others.
+pub fn no_data_markers(elevations: impl Iterator<Item = f64> + Clone) -> Vec<f64> {
+    let listed = |z: &f64| z.abs() >= NO_DATA_MAGNITUDE || NO_DATA.contains(z);
+    let mut found: Vec<f64> = Vec::new();
+    for z in elevations.clone().filter(listed) {
+        if !found.contains(&z) && found.len() < NO_DATA.len() {
+            found.push(z);
+        }
+    }
+    if !found.is_empty() {
+        let range = range_of(elevations);
+        found.retain(|&z| is_no_data(z, range));
+    }
+    found
+}
+
+fn range_of(elevations: impl Iterator<Item = f64>) -> (f64, f64) {
     elevations
         .filter(|z| z.abs() < NO_DATA_MAGNITUDE && !NO_DATA.contains(z))
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), z| (lo.min(z), hi.max(z)))

@@ -6,6 +6,9 @@ use crate::write::EncodeError;
 use std::fmt::Write as _;
 use std::io::Write;
 
+/// Volumes below this are printed as nought.
+const ROUNDED: f64 = 0.005;
+
 /// Writes the report of a comparison as plain text, UTF-8. The same report gives the same bytes; times are not in it.
 ///
 /// # Errors
@@ -41,7 +44,9 @@ fn render(report: &BetweenReport) -> String {
     }
     page.volume("cut", v.cut, "");
     page.volume("fill", v.fill, "");
-    page.volume("net (cut − fill)", v.net, &format!(" {}", v.balance.word()));
+    // What is left of rounding is no deficit.
+    let net = if v.net.abs() < ROUNDED { 0.0 } else { v.net };
+    page.volume("net (cut − fill)", net, &format!(" {}", v.balance.word()));
     if let Some(cells) = v.cells {
         page.count("prisms", cells);
     }

@@ -171,7 +171,7 @@ impl<'a> Feed<'a> {
         match rest.as_slice() {
             // Fewer than three numbers are found by `tobj`.
             [] | [_, _, _] | [_, _, _, _] => {}
-            [weight] if super::super::decimal::number(weight) == Some(1.0) => {}
+            [weight] if crate::read::decimal::number(weight) == Some(1.0) => {}
             [_] => return Err(diagnose::weight(label, self.bytes, range.start)),
             _ => return Err(diagnose::fields(label, self.bytes, range.start)),
         }

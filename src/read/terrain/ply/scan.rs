@@ -1,7 +1,7 @@
 //! Numbers one after the other, from text or from bytes.
 
-use super::super::decimal;
 use super::header::{Encoding, Scalar};
+use crate::read::decimal;
 
 /// Why there is no number.
 #[derive(Clone, Debug, PartialEq)]
