@@ -73,7 +73,8 @@ fn a_refinement_changes_nothing() {
     // Every triangle split at its centroid; and every other one at the middles of its edges, with T-junctions.
     let mut centroids = a.clone();
     let mut middles = a.clone();
-    (centroids.triangles.clear(), middles.triangles.clear());
+    centroids.triangles.clear();
+    middles.triangles.clear();
     for (t, &[i, j, k]) in a.triangles.iter().enumerate() {
         let [p, q, r] = a.corners(t);
         let c = centroids.vertices.len() as u32;
