@@ -2,5 +2,6 @@
 
 pub mod check;
 pub mod inside;
+pub mod polygon;
 pub mod region;
 pub mod volume;

@@ -1,6 +1,7 @@
 //! What a run has to tell: as data ([`Report`]), as JSON for machines, as text for people.
 
 pub mod between;
+pub mod ground;
 pub mod json;
 pub mod model;
 pub mod text;
@@ -10,10 +11,14 @@ pub mod volumes;
 mod testing;
 
 pub use between::BetweenReport;
+pub use ground::{
+    Daylight, EndArea, FinishedFigures, GroundAreas, PadRow, SectionRow, SectionSlopes, SlopeRange, StationRow, TerrainFigures,
+    ThreeSections, station_rows,
+};
 pub use json::write_json;
 pub use model::*;
 pub use text::{write_between, write_text};
-pub use volumes::{Balance, Depths, Reference, Volumes};
+pub use volumes::{Balance, BulkingFigures, CutFillFigures, DepthPlace, Depths, Reference, VolumeParts, Volumes};
 
 use crate::write::{EncodeError, Target, UnknownFormat, ending};
 use std::io::Write;
