@@ -9,6 +9,7 @@ mod figures;
 mod ground;
 mod on_ground;
 pub mod sample;
+pub mod volume;
 mod watch;
 
 pub use build::{BuildJob, Built, build};
@@ -18,6 +19,7 @@ pub use error::{BuriedError, Error};
 pub use ground::read_ground;
 pub use on_ground::GroundInput;
 pub use sample::{Area, Lattice, MOST_NODES, SampleJob, Sampled, Where, lattice, sample};
+pub use volume::{Against, Compared, ComparisonError, VolumeJob, volume};
 pub use watch::{Observer, WRITING};
 
 use crate::formation::{self, Formation};

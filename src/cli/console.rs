@@ -11,7 +11,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Notes on the result itself rather than on how the input was read.
-const WARNINGS: [&str; 7] = [
+const WARNINGS: [&str; 10] = [
     "buried",
     "line-beyond-end",
     "ground-single-precision",
@@ -19,6 +19,9 @@ const WARNINGS: [&str; 7] = [
     "ground-holes",
     "ground-pieces",
     "ground-spikes",
+    "design-uncovered",
+    "meshes-swapped",
+    "lies-double",
 ];
 
 /// Time between two frames of the progress display.

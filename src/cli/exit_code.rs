@@ -48,7 +48,10 @@ impl Code {
             },
             Some(Error::Ground { cause: GroundError::Unsound { .. } | GroundError::Cut { .. }, .. }) => Self::Check,
             Some(Error::Ground { .. }) => Self::Work,
-            Some(Error::Invalid(_) | Error::Formation(_) | Error::Design(_) | Error::Buried(_)) | None => Self::Work,
+            Some(
+                Error::Invalid(_) | Error::Formation(_) | Error::Design(_) | Error::Overlay(_) | Error::Buried(_),
+            )
+            | None => Self::Work,
         }
     }
 

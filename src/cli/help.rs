@@ -34,6 +34,16 @@ Examples:
 
 1:1.5 is one vertical to 1.5 horizontal. 1:0.5 could be read either way and is refused: write 1V:0.5H or 1H:0.5V.";
 
+pub(super) const AFTER_VOLUME: &str = "\
+Examples:
+  slopegen volume design.obj ground.obj --report volume.json
+  slopegen volume may.xyz april.xyz --within lot.geojson
+      between two surveys, inside the boundary of a lot
+  slopegen volume stockpile.ply --to-elevation 102.5
+      what lies above a level (cut), and what is missing below it (fill)
+
+Cut is where DESIGN lies below EXISTING, fill where it lies above; only where both are. Faces are taken as they are given.";
+
 pub(super) const AFTER_SAMPLE: &str = "\
 Examples:
   slopegen sample road.geojson --slope 1:1.5 --at points.csv -o heights.csv

@@ -1,10 +1,10 @@
 //! Arguments as typed → jobs in which everything is checked that can be without the input.
 
-use super::args::{BuildArgs, DirectionArg, FormatArg, InputArgs, Running, SampleArgs, SideArg, SlopeArgs};
+use super::args::{BuildArgs, DirectionArg, FormatArg, InputArgs, Running, SampleArgs, SideArg, SlopeArgs, VolumeArgs};
 use super::number::{self, Rule};
 use crate::formation::{Crossfall, Formation};
 use crate::model::{Bulking, Extent, Sheet, Side, Slope};
-use crate::pipeline::{Area, BuildJob, GroundInput, Lattice, LineInput, SampleJob, Where, Wishes};
+use crate::pipeline::{Against, Area, BuildJob, GroundInput, Lattice, LineInput, SampleJob, VolumeJob, Where, Wishes};
 use crate::read::terrain::TerrainOptions;
 use crate::read::{ColumnOrder, InputFormat, ReadOptions};
 use crate::report::ReportFormat;
@@ -310,6 +310,31 @@ pub(super) fn sample_job(args: &SampleArgs) -> Result<SampleJob, UsageErrors> {
     };
     let job = slope.zip(place).map(|((slope, sheet), (at, output))| SampleJob { input, slope, sheet, at, output });
     checks.finish(job)
+}
+
+/// The job of `slopegen volume`.
+///
+/// # Errors
+/// Everything wrong with the arguments.
+pub(super) fn volume_job(args: &VolumeArgs) -> Result<VolumeJob, UsageErrors> {
+    let mut checks = Checks::default();
+    let against = match &args.existing {
+        Some(existing) => Some(Against::Existing { design: args.design.clone(), existing: existing.clone() }),
+        None => checks
+            .number("--to-elevation", args.to_elevation.as_ref(), Rule::Coordinate)
+            .map(|elevation| Against::Elevation { existing: args.design.clone(), elevation }),
+    };
+    let csv_order = checks.order("--csv-order", args.csv_order.as_ref());
+    let mut reports = Vec::new();
+    for target in targets(&args.report) {
+        let format = checks.format(ReportFormat::of(&target));
+        reports.extend(format.map(|format| (target, format)));
+    }
+    if reports.iter().all(|(target, _)| *target != Target::Stdout) && !args.running.quiet {
+        reports.push((Target::Stdout, ReportFormat::Text));
+    }
+    let within = args.within.clone();
+    checks.finish(against.map(|against| VolumeJob { against, csv_order, within, reports }))
 }
 
 /// Number of threads asked for.

@@ -70,6 +70,15 @@ fn dispatch(arguments: &Arguments) -> anyhow::Result<()> {
                 return Err(failed.into());
             }
         }
+        Command::Volume(wanted) => {
+            let job = job::volume_job(wanted)?;
+            start(&wanted.running)?;
+            let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
+            let console = Console::new(&wanted.running, to_terminal);
+            let compared = crate::pipeline::volume(&job, &console)?;
+            console.finish();
+            compared.written.iter().for_each(|target| console.wrote(target, ""));
+        }
         Command::Sample(wanted) => {
             let job = job::sample_job(wanted)?;
             start(&wanted.running)?;

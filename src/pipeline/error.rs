@@ -2,6 +2,7 @@
 
 use super::DesignError;
 use crate::formation::FormationError;
+use super::volume::ComparisonError;
 use crate::ground::GroundError;
 use crate::model::{Defects, Slope};
 use crate::read::ReadError;
@@ -33,6 +34,9 @@ pub enum Error {
         /// Why.
         cause: SurfaceError,
     },
+    /// Two surfaces cannot be compared.
+    #[error(transparent)]
+    Overlay(#[from] ComparisonError),
     /// Line and ground do not go together.
     #[error("{}", placed_on(.label, .ground, .cause))]
     Ground {

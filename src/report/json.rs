@@ -39,6 +39,7 @@ mod tests {
     use crate::report::Detail;
     use crate::report::Report;
     use crate::report::testing::{compare, full, least, on_ground};
+    use crate::report::{Detail, Report};
 
     fn json(report: &Report) -> String {
         let mut bytes = Vec::new();
@@ -54,6 +55,21 @@ mod tests {
     #[test]
     fn a_full_report_on_ground_is_pinned() {
         compare(&json(&on_ground()), include_str!("../../tests/golden/report_ground.json"), "report_ground.json");
+    }
+
+    #[test]
+    fn a_full_comparison_is_pinned() {
+        let write = |report| {
+            let mut bytes = Vec::new();
+            write_json(&mut bytes, &report).unwrap();
+            String::from_utf8(bytes).unwrap()
+        };
+        let golden = include_str!("../../tests/golden/between.json");
+        crate::report::testing::compare(&write(crate::report::between::testing::full()), golden, "between.json");
+        let least = write(crate::report::between::testing::least());
+        for key in ["cells", "_at", "within", "path\": \"site", "null"] {
+            assert!(!least.contains(key), "{key} in {least}");
+        }
     }
 
     #[test]

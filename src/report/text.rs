@@ -1,6 +1,9 @@
 //! The report for people.
 
+mod between;
 mod ground;
+
+pub use between::write_between;
 
 use super::{Certificate, ExtentKind, LineFigures, Report, SlopeFigures, SurfaceFigures, Volumes};
 use crate::model::Slope;

@@ -9,6 +9,7 @@ mod sample;
 mod streams;
 #[cfg(unix)]
 mod unix;
+mod volume;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -241,7 +241,7 @@ fn usage() {
         "sample road.geojson --slope 1:2 --at pit.csv --cell 2",
         "sample road.geojson --slope 1:2 --at pit.csv -o heights.obj",
         "sample - --input-format csv --slope 1:2 --at -",
-        "volume a b",
+        "measure a b",
     ] {
         let site = Site::new();
         let run = site.run(arguments);
