@@ -119,7 +119,10 @@ mod tests {
     fn message(line: &[(f64, f64)], corner: DVec3, size: DVec3) -> Option<String> {
         let vertices: Vec<DVec3> = line.iter().map(|&(x, y)| DVec3::new(x, y, 5.0)).collect();
         let places = vec![Place::default(); vertices.len()];
-        let line = Line { chains: vec![Chain { name: "line 1".into(), role: Role::Open, vertices, places }] };
+        let line = Line {
+            chains: vec![Chain { name: "line 1".into(), role: Role::Open, vertices, places, axis: None }],
+            ..Line::default()
+        };
         let frame = Frame::around(corner.truncate(), (corner + size).truncate());
         let ground = [DVec3::ZERO, DVec3::X, DVec3::Y + DVec3::Z].map(|p| frame.to_local(corner + p * size));
         // A vertex no triangle uses must not count.
