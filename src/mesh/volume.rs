@@ -21,7 +21,7 @@ pub struct PlaneVolume {
 /// One sign: `area × mean`. One corner positive (`a > 0 ≥ b, c`): a similar triangle with sides in the ratios `a/(a − b)` and
 /// `a/(a − c)`, of mean height `a/3`. Two corners positive: the whole plus the opposite of the third corner's share, which
 /// rounding can make a hair less than nothing.
-fn positive_part(area: f64, h: [f64; 3]) -> f64 {
+pub fn positive_part(area: f64, h: [f64; 3]) -> f64 {
     let corner = |a: f64, b: f64, c: f64| area * a / 3.0 * (a / (a - b)) * (a / (a - c));
     let whole = area * (h[0] + h[1] + h[2]) / 3.0;
     match (h[0] > 0.0, h[1] > 0.0, h[2] > 0.0) {
@@ -33,6 +33,24 @@ fn positive_part(area: f64, h: [f64; 3]) -> f64 {
         (false, true, true) => (whole + corner(-h[0], -h[1], -h[2])).max(0.0),
         (true, false, true) => (whole + corner(-h[1], -h[2], -h[0])).max(0.0),
         (true, true, false) => (whole + corner(-h[2], -h[0], -h[1])).max(0.0),
+    }
+}
+
+/// Share of the area of a triangle over which a linear function with the given corner values is positive; 0 to 1. Similar
+/// triangles as in [`positive_part`]. Corners at nought belong to the side of the others; a function that is nought all over is
+/// positive nowhere.
+pub fn positive_share(h: [f64; 3]) -> f64 {
+    let corner = |a: f64, b: f64, c: f64| (a / (a - b)) * (a / (a - c));
+    let rest = |share: f64| (1.0 - share).max(0.0);
+    match (h[0] > 0.0, h[1] > 0.0, h[2] > 0.0) {
+        (true, true, true) => 1.0,
+        (false, false, false) => 0.0,
+        (true, false, false) => corner(h[0], h[1], h[2]),
+        (false, true, false) => corner(h[1], h[2], h[0]),
+        (false, false, true) => corner(h[2], h[0], h[1]),
+        (false, true, true) => rest(corner(h[0], h[1], h[2])),
+        (true, false, true) => rest(corner(h[1], h[2], h[0])),
+        (true, true, false) => rest(corner(h[2], h[0], h[1])),
     }
 }
 
@@ -76,6 +94,18 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Over the unit triangle, `a − x > 0` on the strip `x < a`: a share of `1 − (1 − a)²`, `(1 − a)²` for the other side.
+    #[test]
+    fn shares_of_the_area() {
+        let a = 0.25;
+        let h = [a, a - 1.0, a];
+        assert!((positive_share(h) - (1.0 - (1.0 - a) * (1.0 - a))).abs() < 1e-15);
+        assert!((positive_share(h.map(|v| -v)) - (1.0 - a) * (1.0 - a)).abs() < 1e-15);
+        assert_eq!(positive_share([1.0, 0.0, 0.0]), 1.0);
+        assert_eq!(positive_share([1.0, 2.0, 0.0]), 1.0);
+        assert_eq!((positive_share([0.0; 3]), positive_share([0.0, -1.0, 0.0])), (0.0, 0.0));
     }
 
     /// Over the unit triangle, `h = a − x` has its positive part on `x < a`: ∫₀ᵃ (a − x)(1 − x) dx = a²/2 − a³/6.

@@ -1,6 +1,7 @@
 //! What is to be built on the line.
 
 use super::Slope;
+use crate::kernel::frame::Frame;
 
 /// Which of the two sheets through the line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,4 +55,9 @@ pub struct Design {
     pub interval: Option<f64>,
     /// Bound for the height error of the whole mesh against the given line, in the length unit.
     pub tolerance: f64,
+    /// The slope of another surface through the same line that is to share every point of it: the line is then simplified
+    /// for both alike.
+    pub companion: Option<Slope>,
+    /// The local frame to work in; `None`: one chosen for the line.
+    pub frame: Option<Frame>,
 }

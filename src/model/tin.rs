@@ -70,6 +70,10 @@ pub enum CurveKind {
     Hinge,
     /// Where the slope ends.
     Boundary,
+    /// Where the works meet the ground.
+    Daylight,
+    /// Where a platform changes from cut to fill.
+    Zero,
 }
 
 impl CurveKind {
@@ -81,6 +85,8 @@ impl CurveKind {
             Self::Valley => "valley",
             Self::Hinge => "hinge",
             Self::Boundary => "boundary",
+            Self::Daylight => "daylight",
+            Self::Zero => "zero",
         }
     }
 }
@@ -96,4 +102,6 @@ pub struct LineFeature {
     pub elevation: Option<f64>,
     /// Name of the chain a hinge comes from.
     pub chain: Option<String>,
+    /// The part that meets the ground along a daylight line.
+    pub part: Option<Part>,
 }

@@ -115,6 +115,8 @@ impl Wishes {
             extent,
             interval: self.interval,
             tolerance,
+            companion: None,
+            frame: None,
         })
     }
 

@@ -49,8 +49,8 @@ pub struct Slopes {
     pub points: Vec<DVec3>,
     /// Counter-clockwise triangles.
     pub triangles: Vec<[PointId; 3]>,
-    /// Whether each triangle belongs to a cone sector.
-    pub on_cone: Vec<bool>,
+    /// The facet each triangle lies in.
+    pub facets: Vec<FacetId>,
     /// Mesh edges with a meaning; those that two facets share come twice.
     pub traces: Vec<Traced>,
     /// Points of each edge between its ends, from start to end.
@@ -111,7 +111,7 @@ pub fn emit(sheet: &Sheet, closure: &Closure, arcs: &Arcs, cut: &Cut) -> Slopes 
         let place = |id: PointId| if id >= base { id + shift } else { id };
         slopes.points.extend_from_slice(&cell.points);
         slopes.triangles.extend(cell.triangles.iter().map(|t| t.map(place)));
-        slopes.on_cone.resize(slopes.triangles.len(), !sheet.facet(f).is_strip());
+        slopes.facets.resize(slopes.triangles.len(), f);
         slopes.traces.extend(cell.traces.iter().map(|&(kind, ends)| (kind, ends.map(place))));
         if cell.failed {
             slopes.failed.push(f);

@@ -100,15 +100,17 @@ impl Network {
     ///
     /// Expects a validated line, every segment flatter than the slope.
     pub fn new(line: &Line, design: &Design, bound: f64) -> Self {
-        let (min, max) = plan_box(line);
-        let frame = Frame::around(min, max);
+        let frame = design.frame.unwrap_or_else(|| {
+            let (min, max) = plan_box(line);
+            Frame::around(min, max)
+        });
         let sign = if design.sheet == Sheet::Rising { -1.0 } else { 1.0 };
         let (mut points, of_vertex) = weld(line, &frame, sign);
         let segments = Segments::new(line, &of_vertex).noded(&mut points, line);
         let pieces = pieces(line, design, &segments);
         Self { frame, sign, nodes: points, edges: Vec::new(), simplified: 0, collinear: 0, simplified_max: 0.0 }.with_edges(
             &pieces,
-            design.slope.ratio(),
+            [design.slope.ratio(), design.companion.unwrap_or(design.slope).ratio()],
             bound,
         )
     }
@@ -151,7 +153,11 @@ impl Network {
     }
 
     /// Cuts the pieces into runs between fixed nodes, simplifies each and drops the nodes no edge uses.
-    fn with_edges(mut self, pieces: &[Piece], slope: f64, bound: f64) -> Self {
+    ///
+    /// With two slopes the error is measured with the steeper one and chords are bounded by the flatter one, so that the same
+    /// vertices stay for both.
+    fn with_edges(mut self, pieces: &[Piece], slopes: [f64; 2], bound: f64) -> Self {
+        let (flatter, steeper) = (slopes[0].min(slopes[1]), slopes[0].max(slopes[1]));
         let runs = Runs::new(self.nodes.len(), pieces);
         let mut used = FxHashMap::default();
         for run in runs.all(&self.nodes) {
@@ -159,8 +165,8 @@ impl Network {
             let steepest = points
                 .windows(2)
                 .map(|w| (w[1].z - w[0].z).abs() / w[0].truncate().distance(w[1].truncate()))
-                .fold(slope * STEEPEST_CHORD, f64::max);
-            for chord in simplify::simplify(&points, slope, bound, steepest, CHORD_SPACING) {
+                .fold(flatter * STEEPEST_CHORD, f64::max);
+            for chord in simplify::simplify(&points, steeper, bound, steepest, CHORD_SPACING) {
                 self.add_chord(&run, &points, &chord, &mut used);
             }
         }

@@ -1,61 +1,59 @@
 //! Line work: mesh edges with a meaning, chained to polylines.
 
-use super::Body;
-use crate::mesh::check::HalfEdges;
-use crate::model::{CurveKind, Design, Line, LineFeature, Sheet as SheetKind};
-use crate::slope::emit::Trace;
-use crate::slope::levels::Levels;
-use crate::slope::network::Network;
-use std::collections::BTreeMap;
+use crate::model::{CurveKind, Line, LineFeature, Tin};
 
-/// All line work of the surface, in a fixed order.
-pub(crate) fn lines(
-    line: &Line,
-    design: &Design,
-    network: &Network,
-    levels: &Levels,
-    body: &Body,
-    edges: &HalfEdges,
-) -> Vec<LineFeature> {
+/// What a mesh edge stands for that is more than a diagonal. In the order in which line work is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Mark {
+    /// Part of the level curve with this number.
+    Level(u32),
+    /// Part of a crease that is lower than its surroundings.
+    Valley,
+    /// Part of a crease that is higher than its surroundings.
+    Ridge,
+    /// Part of the line: of the chain with this number.
+    Hinge(u32),
+}
+
+/// All line work of a surface, in a fixed order: `marks` are mesh edges (lower vertex first, sorted), `heights` the elevations of
+/// the levels, `open` the directed edges without a counterpart. What of these is not the line itself is the boundary.
+pub fn lines(line: &Line, heights: &[f64], tin: &Tin, marks: &[(Mark, [u32; 2])], open: &[[u32; 2]]) -> Vec<LineFeature> {
     let mut features = Vec::new();
-    let mut push = |kind, elevation: Option<f64>, chain: Option<String>, segments: &[[u32; 2]]| {
-        for path in chained(segments) {
-            let points = path.into_iter().map(|v| body.tin.world(v as usize)).collect();
-            features.push(LineFeature { kind, points, elevation, chain: chain.clone() });
-        }
-    };
-    let mut by_level: BTreeMap<u32, Vec<[u32; 2]>> = BTreeMap::new();
-    let mut creases = Vec::new();
-    let mut hinge: Vec<[u32; 2]> = Vec::new();
-    let mut by_chain: Vec<Vec<[u32; 2]>> = vec![Vec::new(); line.chains.len()];
-    for &(kind, ends) in &body.traces {
-        match kind {
-            Trace::Level(u) => by_level.entry(u).or_default().push(ends),
-            Trace::Crease => creases.push(ends),
-            Trace::Hinge(e) => {
-                hinge.push(ends);
-                by_chain[network.edges[e as usize].given[0].chain as usize].push(ends);
-            }
-        }
+    for group in marks.chunk_by(|a, b| a.0 == b.0) {
+        let (kind, elevation, chain) = match group[0].0 {
+            Mark::Level(u) => (CurveKind::LevelCurve, Some(heights[u as usize]), None),
+            Mark::Valley => (CurveKind::Valley, None, None),
+            Mark::Ridge => (CurveKind::Ridge, None, None),
+            Mark::Hinge(chain) => (CurveKind::Hinge, None, Some(line.chains[chain as usize].name.clone())),
+        };
+        let segments: Vec<[u32; 2]> = group.iter().map(|(_, ends)| *ends).collect();
+        push(&mut features, tin, &segments, kind, elevation, chain);
     }
-    for (u, segments) in &by_level {
-        push(CurveKind::LevelCurve, Some(network.sign * levels.heights[*u as usize]), None, segments);
-    }
-    // The falling sheet is the greatest of its facets: where two meet it is lower than around.
-    let crease = if design.sheet == SheetKind::Falling { CurveKind::Valley } else { CurveKind::Ridge };
-    push(crease, None, None, &creases);
+    let mut hinge: Vec<[u32; 2]> =
+        marks.iter().filter(|(mark, _)| matches!(mark, Mark::Hinge(_))).map(|(_, ends)| *ends).collect();
     hinge.sort_unstable();
-    for (chain, segments) in line.chains.iter().zip(&by_chain) {
-        push(CurveKind::Hinge, None, Some(chain.name.clone()), segments);
-    }
     let boundary: Vec<[u32; 2]> =
-        edges.open().into_iter().map(|[a, b]| [a.min(b), a.max(b)]).filter(|e| hinge.binary_search(e).is_err()).collect();
-    push(CurveKind::Boundary, None, None, &boundary);
+        open.iter().map(|&[a, b]| [a.min(b), a.max(b)]).filter(|e| hinge.binary_search(e).is_err()).collect();
+    push(&mut features, tin, &boundary, CurveKind::Boundary, None, None);
     features
 }
 
+fn push(
+    features: &mut Vec<LineFeature>,
+    tin: &Tin,
+    segments: &[[u32; 2]],
+    kind: CurveKind,
+    elevation: Option<f64>,
+    chain: Option<String>,
+) {
+    for path in chained(segments) {
+        let points = path.into_iter().map(|v| tin.world(v as usize)).collect();
+        features.push(LineFeature { kind, points, elevation, chain: chain.clone(), part: None });
+    }
+}
+
 /// Chains segments to paths that end where not exactly two segments meet; closed paths repeat their first vertex.
-fn chained(segments: &[[u32; 2]]) -> Vec<Vec<u32>> {
+pub fn chained(segments: &[[u32; 2]]) -> Vec<Vec<u32>> {
     // Segments by vertex: (vertex, segment), sorted.
     let mut by_vertex: Vec<(u32, u32)> = segments.iter().enumerate().flat_map(|(i, s)| s.map(|v| (v, i as u32))).collect();
     by_vertex.sort_unstable();

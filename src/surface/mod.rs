@@ -2,19 +2,23 @@
 
 mod buried;
 mod certificate;
-mod curves;
+pub mod curves;
+mod feet;
 mod flats;
 mod solve;
 
 pub use buried::Buried;
 pub use certificate::Certificate;
+pub use curves::Mark;
+pub use feet::Foot;
 
 use crate::kernel::sum::Sum;
 use crate::mesh::check::HalfEdges;
 use crate::mesh::region::RegionError;
 use crate::mesh::volume;
 use crate::model::{Design, Extent, Line, LineFeature, Note, Part, Sheet as SheetKind, Tin};
-use crate::slope::emit::{self, Slopes};
+use crate::slope::emit::{self, Slopes, Trace};
+use crate::slope::facet::Kind;
 use crate::slope::fan::Fans;
 use crate::slope::levels::{self, Levels};
 use crate::slope::network::Network;
@@ -172,6 +176,12 @@ pub struct Surface {
     pub tin: Tin,
     /// Level curves, creases, hinge and boundary.
     pub lines: Vec<LineFeature>,
+    /// Mesh edges that are more than diagonals, lower vertex first, in order. Levels are numbered as in `levels`.
+    pub marks: Vec<(Mark, [u32; 2])>,
+    /// The facets that slope triangles lie in.
+    pub feet: Vec<Foot>,
+    /// The facet of each slope triangle, an index into `feet`; slope triangles come first in the mesh.
+    pub foot_of: Vec<u32>,
     /// Elevations of the level curves, from the top down.
     pub levels: Vec<f64>,
     /// Given vertices moved onto a chord.
@@ -233,10 +243,13 @@ pub fn build(line: &Line, design: &Design, reference: Option<f64>, watch: &dyn W
     let flats = flats::fill(line, design, &network, &slopes, &buried.stretches)?;
     go_on("check")?;
     let body = Body::new(&network, design, &slopes, &flats);
+    let (feet, foot_of) = feet_of(line, &sheet, &slopes);
+    let marks = body.marks(&network, design);
     let edges = HalfEdges::new(body.tin.vertices.len(), &body.tin.triangles);
+    let heights: Vec<f64> = levels.heights.iter().map(|c| network.sign * c).collect();
     let (certificate, lines) = rayon::join(
         || certificate::measure(line, design, &sheet, &body, &edges, &solved.closure),
-        || curves::lines(line, design, &network, &levels, &body, &edges),
+        || curves::lines(line, &heights, &body.tin, &marks, &edges.open()),
     );
     let certificate = certificate?;
     go_on("volumes")?;
@@ -246,7 +259,10 @@ pub fn build(line: &Line, design: &Design, reference: Option<f64>, watch: &dyn W
     notes.extend(buried.below_note(design));
     Ok(Surface {
         lines,
-        levels: levels.heights.iter().map(|c| network.sign * c).collect(),
+        marks,
+        feet,
+        foot_of,
+        levels: heights,
         simplified: network.simplified,
         collinear: network.collinear,
         simplified_max: network.simplified_max,
@@ -257,6 +273,27 @@ pub fn build(line: &Line, design: &Design, reference: Option<f64>, watch: &dyn W
         notes,
         tin: body.tin,
     })
+}
+
+/// The facets that have triangles, and the one of each triangle.
+fn feet_of(line: &Line, sheet: &Sheet, slopes: &Slopes) -> (Vec<Foot>, Vec<u32>) {
+    let stations = feet::Stations::new(line);
+    let mut feet = Vec::new();
+    let mut last = None;
+    let mut foot_of = Vec::with_capacity(slopes.facets.len());
+    for &f in &slopes.facets {
+        if last != Some(f) {
+            let facet = sheet.facet(f);
+            let leaving = match facet.kind {
+                Kind::Strip(_) => None,
+                Kind::Sector(node) => sheet.fans.leaving(node).first().copied(),
+            };
+            feet.push(feet::foot(facet, sheet.network, &stations, leaving));
+            last = Some(f);
+        }
+        foot_of.push(feet.len() as u32 - 1);
+    }
+    (feet, foot_of)
 }
 
 /// Where the sheet stops, heights of the falling sheet.
@@ -365,7 +402,20 @@ impl Body {
             })
             .collect();
         let tin = Tin { frame: network.frame, vertices, triangles, parts };
-        Self { tin, on_cone: slopes.on_cone.clone(), traces, edge_points }
+        let on_cone = slopes.facets.iter().map(|&f| f as usize >= 2 * network.edges.len()).collect();
+        Self { tin, on_cone, traces, edge_points }
+    }
+
+    /// The traces in the words of the world.
+    fn marks(&self, network: &Network, design: &Design) -> Vec<(Mark, [u32; 2])> {
+        let mark = |trace| match trace {
+            Trace::Level(u) => Mark::Level(u),
+            Trace::Crease => feet::crease(design.sheet),
+            Trace::Hinge(e) => Mark::Hinge(network.edges[e as usize].given[0].chain),
+        };
+        let mut marks: Vec<(Mark, [u32; 2])> = self.traces.iter().map(|&(trace, ends)| (mark(trace), ends)).collect();
+        marks.sort_unstable();
+        marks
     }
 
     fn areas(&self) -> Areas {

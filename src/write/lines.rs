@@ -9,7 +9,7 @@ use std::io::Write;
 /// Writes line work as a GeoJSON `FeatureCollection` of 3D `LineString`s in world coordinates, shortest digits that read back
 /// to the same bits. Returns the number of features written.
 ///
-/// Properties: `kind` always, `elevation` for level curves, `chain` for hinges. `crs`, the name of the coordinate system as the
+/// Properties: `kind` always, `elevation` for level curves, `chain` for hinges, `part` for daylight lines. `crs`, the name of the coordinate system as the
 /// input gave it, becomes the (old, widely read) named `crs` member. Features are sorted by kind, then elevation, and otherwise
 /// stay in the given order. One of fewer than two points is no line and is left out.
 ///
@@ -62,6 +62,10 @@ fn push_feature(
         bytes.extend_from_slice(b",\"chain\":");
         push_json_string(bytes, chain)?;
     }
+    if let Some(part) = feature.part {
+        bytes.extend_from_slice(b",\"part\":");
+        push_json_string(bytes, part.name())?;
+    }
     bytes.extend_from_slice(b"},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[");
     for (j, point) in feature.points.iter().enumerate() {
         bytes.extend_from_slice(if j == 0 { b"[" } else { b",[" });
@@ -91,7 +95,13 @@ mod tests {
     use glam::DVec3;
 
     fn feature(kind: CurveKind, points: &[[f64; 3]], elevation: Option<f64>, chain: Option<&str>) -> LineFeature {
-        LineFeature { kind, points: points.iter().map(|p| DVec3::from(*p)).collect(), elevation, chain: chain.map(Into::into) }
+        LineFeature {
+            kind,
+            points: points.iter().map(|p| DVec3::from(*p)).collect(),
+            elevation,
+            chain: chain.map(Into::into),
+            part: None,
+        }
     }
 
     fn text(features: &[LineFeature], crs: Option<&str>) -> String {

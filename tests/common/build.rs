@@ -62,6 +62,8 @@ pub(crate) fn design(k: f64, extent: Extent) -> Design {
         extent,
         interval: None,
         tolerance: 1e-3,
+        companion: None,
+        frame: None,
     }
 }
 

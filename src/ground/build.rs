@@ -1,0 +1,293 @@
+//! The driver: line, ground and designs → the works, the design cut off at the ground, the finished ground, all figures.
+
+use super::figures::{self, Ground};
+use super::finished::Left;
+use super::nodes::Nodes;
+use super::patch::{NONE, Patch};
+use super::reach::{Bounds, Reach};
+use super::shape::Shape;
+use super::stations::Stations;
+use super::tally::Tally;
+use super::trimmed::Trimmed;
+use super::works::{Flood, Sink, Works};
+use super::{Axis, Corner, GroundError, Piece, cell};
+use crate::kernel::frame::Frame;
+use crate::kernel::sum::Sum;
+use crate::mesh::volume;
+use crate::model::{Design, Extent, Line, Part, Sheet, Side, Slope, Terrain};
+use crate::slope::levels;
+use crate::surface::{self, Surface, SurfaceError, Watch};
+use glam::DVec2;
+
+/// Slopes are built this part of their depth beyond the lowest (highest) ground they can reach, and at least
+/// [`LEAST_BEYOND`] tolerances: they then meet the ground within the mesh.
+const BEYOND: f64 = 0.01;
+
+/// See [`BEYOND`].
+const LEAST_BEYOND: f64 = 10.0;
+
+/// Platform area without ground up to this part of the whole is rounding.
+const AREA_ROUNDING: f64 = 1e-9;
+
+/// A line on its ground, before the slopes are known.
+pub struct Site<'a> {
+    line: &'a Line,
+    terrain: Terrain,
+    bounds: Bounds,
+    reaches: Vec<Reach>,
+}
+
+/// What is wanted of the ground.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Options {
+    /// Accept slopes that end without meeting the ground.
+    pub allow_open: bool,
+    /// Build the finished ground as well.
+    pub finished: bool,
+    /// Distance of stations.
+    pub stations: Option<f64>,
+}
+
+impl<'a> Site<'a> {
+    /// Puts the ground into a frame that holds line and ground alike.
+    pub fn new(line: &'a Line, terrain: Terrain) -> Self {
+        let world = |p: DVec2| terrain.frame.to_world(p.extend(0.0)).truncate();
+        let (lo, hi) = terrain.plan_box();
+        let (mut lo, mut hi) = (world(lo), world(hi));
+        for v in line.chains.iter().flat_map(|chain| &chain.vertices) {
+            lo = lo.min(v.truncate());
+            hi = hi.max(v.truncate());
+        }
+        let terrain = terrain.in_frame(Frame::around(lo, hi));
+        let bounds = Bounds::new(&terrain);
+        Self { line, terrain, bounds, reaches: Vec::new() }
+    }
+
+    /// The ground.
+    pub fn terrain(&self) -> &Terrain {
+        &self.terrain
+    }
+
+    /// Finds how far slopes of a sheet can reach before they meet the ground, and the elevation at which that is.
+    pub fn end(&mut self, slope: Slope, sheet: Sheet, tolerance: f64) -> f64 {
+        let reach = self.bounds.reach(&self.terrain.frame, self.line, slope, sheet);
+        let (low, high) = self.line.elevation_range();
+        let beyond = |depth: f64| (BEYOND * depth).max(LEAST_BEYOND * tolerance);
+        let end = match sheet {
+            Sheet::Falling => {
+                let end = reach.lowest.min(low);
+                end - beyond(high - end)
+            }
+            Sheet::Rising => {
+                let end = reach.highest.max(high);
+                end + beyond(end - low)
+            }
+        };
+        self.reaches.push(reach);
+        end
+    }
+
+    /// Builds designs of one line, one for each sheet at most, on the ground.
+    ///
+    /// # Errors
+    /// [`GroundError`]; meshes that fail their check are errors, never a result.
+    pub fn build(self, designs: &[Design], options: &Options, watch: &dyn Watch) -> Result<Ground, GroundError> {
+        let designs = self.in_common(designs);
+        let surfaces = self.surfaces(&designs, watch)?;
+        let go_on = |stage| {
+            watch.stage(stage);
+            if watch.cancelled() { Err(SurfaceError::Cancelled) } else { Ok(()) }
+        };
+        go_on("ground")?;
+        let whole = designs.iter().any(|d| d.side_of_rings == Side::Inside) && self.line.chains.iter().all(|c| c.closed());
+        let unsound = |mesh, what: &str| GroundError::Unsound { mesh, what: what.to_owned() };
+        let shape = Shape::new(&surfaces.iter().collect::<Vec<_>>(), whole)
+            .ok_or_else(|| unsound("design", "its slopes do not have the points of the line in common"))?;
+        let flats = (0..shape.triangles.len() as u32).filter(|&a| whole || shape.parts[a as usize] == Part::Platform);
+        let patch = Patch::new(&self.terrain, self.bounds.touched(&self.terrain, &self.reaches, flats.map(|a| shape.plan(a))));
+        let stations = Stations::new(self.axes(), options.stations)?;
+        let mut feeder = Feeder::new(&shape, &stations);
+        let works = Flood::run(&shape, &patch, whole, &mut feeder);
+        let fed = feeder.finish();
+        self.check_covered(&shape, &fed, options)?;
+        check_open(&shape, &works, options)?;
+        go_on("meshes")?;
+        let nodes = Nodes::new(&shape, &patch, &works);
+        let trimmed = Trimmed::new(&shape, &patch, &works, &nodes, whole)
+            .map_err(|cause| GroundError::Cut { what: "the design", cause })?;
+        let left = if options.finished {
+            figures::check_walls(&shape, &works, &nodes)?;
+            Some(
+                Left::new(&shape, &patch, &works, &nodes, whole)
+                    .map_err(|cause| GroundError::Cut { what: "the ground", cause })?,
+            )
+        } else {
+            None
+        };
+        go_on("check")?;
+        figures::ground(&figures::Found {
+            line: self.line,
+            designs: &designs,
+            terrain: &self.terrain,
+            surfaces: &surfaces,
+            shape: &shape,
+            patch: &patch,
+            works: &works,
+            nodes: &nodes,
+            trimmed: &trimmed,
+            left: left.as_ref(),
+            fed,
+            stations: &stations,
+        })
+    }
+
+    /// The designs in one frame, with one interval, each simplifying the line as the other needs it.
+    fn in_common(&self, designs: &[Design]) -> Vec<Design> {
+        let (low, high) = self.line.elevation_range();
+        let range = |design: &Design| match (design.extent, design.sheet) {
+            (Extent::Elevation(end), Sheet::Falling) => high - end,
+            (Extent::Elevation(end), Sheet::Rising) => end - low,
+            (Extent::Height(height), _) => high - low + height,
+            (Extent::Distance(distance), _) => high - low + distance * design.slope.ratio(),
+        };
+        let interval = levels::round_interval(designs.iter().map(range).fold(0.0, f64::max));
+        let tolerance = designs.iter().map(|d| d.tolerance).fold(f64::INFINITY, f64::min);
+        let common = |design: &Design| Design {
+            companion: designs.iter().find(|d| d.sheet != design.sheet).map(|d| d.slope),
+            frame: Some(self.terrain.frame),
+            interval: design.interval.or(Some(interval)),
+            tolerance,
+            ..design.clone()
+        };
+        designs.iter().map(common).collect()
+    }
+
+    fn surfaces(&self, designs: &[Design], watch: &dyn Watch) -> Result<Vec<Surface>, GroundError> {
+        let build = |design: &Design| surface::build(self.line, design, None, watch);
+        let surfaces = match designs {
+            [first, second] => {
+                let (first, second) = rayon::join(|| build(first), || build(second));
+                vec![first?, second?]
+            }
+            _ => designs.iter().map(build).collect::<Result<Vec<_>, _>>()?,
+        };
+        for (surface, design) in surfaces.iter().zip(designs) {
+            if let Some(b) = surface.buried.first() {
+                let name = |chain: usize| self.line.chains[chain].name.clone();
+                let cure = match b.free_slope {
+                    Some(free) => format!(
+                        "a slope of 1:{:.3} or steeper instead of 1:{:.3}, or move the two apart",
+                        1.0 / free,
+                        design.slope.one_in()
+                    ),
+                    None => "build them one by one, or move the two apart".to_owned(),
+                };
+                return Err(GroundError::Buried {
+                    chain: name(b.chain),
+                    from: b.from,
+                    to: b.to,
+                    depth: b.depth,
+                    by_chain: name(b.by_chain),
+                    x: b.at.x,
+                    y: b.at.y,
+                    cure,
+                });
+            }
+        }
+        Ok(surfaces)
+    }
+
+    /// The chains as axes.
+    fn axes(&self) -> Vec<Axis> {
+        let axis = |chain: &crate::model::Chain| {
+            let stations = chain.stations();
+            let closing = chain.closed().then(|| chain.vertices[0]);
+            let points = chain.vertices.iter().copied().chain(closing);
+            let line = points.map(|p| self.terrain.frame.to_local(p).truncate()).zip(stations.iter().copied()).collect();
+            Axis { name: chain.name.clone(), length: stations.last().copied().unwrap_or(0.0), closed: chain.closed(), line }
+        };
+        self.line.chains.iter().map(axis).collect()
+    }
+
+    fn check_covered(&self, shape: &Shape, fed: &Fed, options: &Options) -> Result<(), GroundError> {
+        if options.allow_open {
+            return Ok(());
+        }
+        let missing = |a: u32| {
+            let t = shape.triangles[a as usize].map(|v| shape.vertices[v as usize]);
+            volume::plan_area(t) - fed.covered[a as usize]
+        };
+        let flats: Vec<u32> = (0..shape.triangles.len() as u32).filter(|&a| shape.parts[a as usize] == Part::Platform).collect();
+        let area = flats.iter().map(|&a| missing(a)).collect::<Sum>().value();
+        let all = flats
+            .iter()
+            .map(|&a| volume::plan_area(shape.triangles[a as usize].map(|v| shape.vertices[v as usize])))
+            .collect::<Sum>()
+            .value();
+        if area <= AREA_ROUNDING * all {
+            return Ok(());
+        }
+        let worst = flats.into_iter().max_by(|&a, &b| missing(a).total_cmp(&missing(b))).unwrap_or(0);
+        let [p, q, r] = shape.triangles[worst as usize].map(|v| shape.vertices[v as usize]);
+        let at = shape.frame.to_world((p + q + r) / 3.0);
+        Err(GroundError::Uncovered { area, all, x: at.x, y: at.y })
+    }
+}
+
+fn check_open(shape: &Shape, works: &Works, options: &Options) -> Result<(), GroundError> {
+    use super::works::End;
+    let Some(first) = works.open.iter().max_by(|p, q| p.height.total_cmp(&q.height)) else { return Ok(()) };
+    if options.allow_open {
+        return Ok(());
+    }
+    let length = works.open.iter().map(|o| o.points[0].truncate().distance(o.points[1].truncate())).collect::<Sum>();
+    let at = shape.frame.to_world(first.points[0]);
+    let (place, cure) = match first.end {
+        End::Ground => ("at the edge of the ground", "use a ground that reaches further and has no holes"),
+        End::Slope => ("at the end asked for", "give a later end, or none"),
+    };
+    Err(GroundError::Open { x: at.x, y: at.y, length: length.value(), height: first.height, at: place, cure })
+}
+
+/// What the feeder has gathered.
+pub(crate) struct Fed {
+    /// Cut and fill.
+    pub(crate) tallied: super::Tallied,
+    /// Plan area of each triangle of the design that has been fed.
+    pub(crate) covered: Vec<f64>,
+}
+
+/// Passes the pieces of the works on, with their stations.
+struct Feeder<'a> {
+    shape: &'a Shape,
+    tally: Tally<'a>,
+    covered: Vec<f64>,
+    corners: Vec<Corner>,
+}
+
+impl<'a> Feeder<'a> {
+    fn new(shape: &'a Shape, stations: &'a Stations) -> Self {
+        Self { shape, tally: Tally::new(stations), covered: vec![0.0; shape.triangles.len()], corners: Vec::new() }
+    }
+
+    fn finish(self) -> Fed {
+        Fed { tallied: self.tally.finish(), covered: self.covered }
+    }
+}
+
+impl Sink for Feeder<'_> {
+    fn take(&mut self, a: u32, corners: &[cell::Corner]) {
+        let foot = self.shape.foot_of[a as usize];
+        let foot = (foot != NONE).then(|| self.shape.feet[foot as usize]);
+        self.corners.clear();
+        self.corners.extend(corners.iter().map(|c| Corner {
+            at: c.at,
+            height: c.h,
+            station: foot.map_or(0.0, |f| f.station(c.at)),
+        }));
+        self.tally.add(&Piece { part: self.shape.parts[a as usize], axis: foot.map(|f| f.chain), corners: &self.corners });
+        let o = corners[0].at;
+        let twice: f64 = corners[1..].windows(2).map(|w| (w[0].at - o).perp_dot(w[1].at - o)).sum();
+        self.covered[a as usize] += 0.5 * twice;
+    }
+}

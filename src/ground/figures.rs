@@ -1,0 +1,421 @@
+//! From the works to what is written: meshes, line work, figures and the certificate.
+
+use super::build::Fed;
+use super::cell::{Label, TOUCH};
+use super::finished::Left;
+use super::nodes::Nodes;
+use super::patch::{NONE, Patch};
+use super::shape::Shape;
+use super::stations::Stations;
+use super::trimmed::Trimmed;
+use super::works::{Border, Works};
+use super::{Axis, GroundError, Tallied};
+use crate::kernel::sum::Sum;
+use crate::mesh::check::{self, HalfEdges, Soundness};
+use crate::mesh::{polygon, volume};
+use crate::model::{CurveKind, Design, Line, LineFeature, Part, Sheet, Terrain, Tin};
+use crate::surface::curves::{self, chained};
+use crate::surface::{Areas, Certificate, Mark, Surface};
+use glam::DVec3;
+use rustc_hash::FxHashSet;
+
+/// Triangles lower than this (length units) are too small for an angle.
+const MEASURABLE_HEIGHT: f64 = 1e-4;
+
+/// Where the works meet the ground.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Daylight {
+    /// Closed loops.
+    pub loops: usize,
+    /// Length in plan.
+    pub length: f64,
+    /// Its part along fill slopes.
+    pub fill_length: f64,
+    /// Its part along cut slopes.
+    pub cut_length: f64,
+    /// Length in plan of ends that do not meet the ground.
+    pub open_length: f64,
+}
+
+/// A design on its ground.
+#[derive(Clone, Debug)]
+pub struct Ground {
+    /// Platform and slopes, cut off at the ground.
+    pub design: Tin,
+    /// The whole ground with the works in it.
+    pub finished: Option<Tin>,
+    /// Level curves, creases, hinge, daylight, zero line, open ends.
+    pub lines: Vec<LineFeature>,
+    /// Elevations of the level curves, from the top down.
+    pub levels: Vec<f64>,
+    /// The daylight line.
+    pub daylight: Daylight,
+    /// Whether all slopes meet the ground, and all of the platform has ground below it.
+    pub complete: bool,
+    /// Cut and fill.
+    pub tallied: Tallied,
+    /// What stations are counted along, with the ends of the intervals.
+    pub stations: Stations,
+    /// Areas of the design.
+    pub areas: Areas,
+    /// What was measured on the design written.
+    pub certificate: Certificate,
+    /// Bound for the error of cut or fill through simplification and chords.
+    pub error_bound: f64,
+    /// Given vertices moved onto a chord.
+    pub simplified: usize,
+    /// Largest displacement of one.
+    pub simplified_max: f64,
+    /// Triangles of the ground looked at.
+    pub ground_used: usize,
+}
+
+/// All that has been found.
+pub(crate) struct Found<'a> {
+    pub(crate) line: &'a Line,
+    pub(crate) designs: &'a [Design],
+    pub(crate) terrain: &'a Terrain,
+    pub(crate) surfaces: &'a [Surface],
+    pub(crate) shape: &'a Shape,
+    pub(crate) patch: &'a Patch,
+    pub(crate) works: &'a Works,
+    pub(crate) nodes: &'a Nodes,
+    pub(crate) trimmed: &'a Trimmed,
+    pub(crate) left: Option<&'a Left>,
+    pub(crate) fed: Fed,
+    pub(crate) stations: &'a Stations,
+}
+
+/// Puts the results together and checks the meshes.
+///
+/// # Errors
+/// [`GroundError::Unsound`].
+pub(crate) fn ground(found: &Found) -> Result<Ground, GroundError> {
+    let mut number = Numbering::default();
+    let triangles: Vec<[u32; 3]> = found.trimmed.triangles.iter().map(|t| number.triangle(*t)).collect();
+    let parts: Vec<Part> = found.trimmed.from.iter().map(|&a| found.shape.parts[a as usize]).collect();
+    let vertices = number.ids.iter().map(|&id| found.nodes.places[id as usize]).collect();
+    let design = Tin { frame: found.shape.frame, vertices, triangles, parts };
+    let edges = HalfEdges::new(design.vertices.len(), &design.triangles);
+    let soundness = check::check(&design.vertices, &design.triangles, &edges);
+    let certificate = certificate(found, &design, &soundness)?;
+    let lines = lines(found, &number, &design, &edges);
+    let finished = found.left.map(|left| finished(found, left)).transpose()?;
+    let areas = areas(&design);
+    let (error_bound, simplified) = error_bound(found, &design);
+    Ok(Ground {
+        finished,
+        lines,
+        levels: found.shape.levels.clone(),
+        daylight: daylight(found),
+        complete: found.works.open.is_empty(),
+        tallied: found.fed.tallied.clone(),
+        stations: found.stations.clone(),
+        areas,
+        certificate,
+        error_bound,
+        simplified: found.surfaces.iter().map(|s| s.simplified).max().unwrap_or(0),
+        simplified_max: simplified,
+        ground_used: found.patch.triangles.len(),
+        design,
+    })
+}
+
+/// Mesh numbers in the order of first use.
+#[derive(Default)]
+struct Numbering {
+    ids: Vec<u32>,
+    of: Vec<u32>,
+}
+
+impl Numbering {
+    fn triangle(&mut self, t: [u32; 3]) -> [u32; 3] {
+        t.map(|id| {
+            if self.of.len() <= id as usize {
+                self.of.resize(id as usize + 1, NONE);
+            }
+            let number = &mut self.of[id as usize];
+            if *number == NONE {
+                *number = self.ids.len() as u32;
+                self.ids.push(id);
+            }
+            *number
+        })
+    }
+
+    fn get(&self, id: u32) -> Option<u32> {
+        self.of.get(id as usize).copied().filter(|&n| n != NONE)
+    }
+}
+
+fn areas(design: &Tin) -> Areas {
+    let mut plan = Sum::default();
+    let mut parts = [Sum::default(); 4];
+    for t in 0..design.triangles.len() {
+        let [a, b, c] = design.corners(t);
+        plan.add(volume::plan_area([a, b, c]));
+        parts[design.parts[t] as usize].add(0.5 * (b - a).cross(c - a).length());
+    }
+    let of = |part: Part| parts[part as usize].value();
+    let (platform, fill_slope, cut_slope) = (of(Part::Platform), of(Part::FillSlope), of(Part::CutSlope));
+    Areas { plan: plan.value(), slope: platform + fill_slope + cut_slope, fill_slope, cut_slope, platform }
+}
+
+/// Simplifying moves the sheet by at most `simplified_max`, chords lower cones by at most a third of the tolerance.
+fn error_bound(found: &Found, design: &Tin) -> (f64, f64) {
+    let moved = found.surfaces.iter().map(|s| s.simplified_max).fold(0.0, f64::max);
+    let chord = found.designs.iter().map(|d| d.tolerance / 3.0).fold(0.0, f64::max);
+    let on_cone = |t: &usize| {
+        let foot = found.shape.foot_of[found.trimmed.from[*t] as usize];
+        foot != NONE && found.shape.feet[foot as usize].on_cone
+    };
+    let area = |t: usize| volume::plan_area(design.corners(t));
+    let cones = (0..design.triangles.len()).filter(on_cone).map(area).collect::<Sum>().value();
+    let all = (0..design.triangles.len()).map(area).collect::<Sum>().value();
+    (moved * all + chord * cones, moved)
+}
+
+/// Measures the design cut off at the ground; what cutting does not change is taken from the whole sheets.
+fn certificate(found: &Found, design: &Tin, soundness: &Soundness) -> Result<Certificate, GroundError> {
+    let sheets = found.surfaces.iter().map(|s| s.certificate);
+    let mut certificate = Certificate {
+        paired: true,
+        manifold: soundness.manifold(),
+        overlaps: soundness.overlaps,
+        input_edges_kept: true,
+        ..Certificate::default()
+    };
+    for sheet in sheets {
+        certificate.paired &= sheet.paired;
+        certificate.input_edges_kept &= sheet.input_edges_kept;
+        certificate.height_max_deviation = certificate.height_max_deviation.max(sheet.height_max_deviation);
+    }
+    for (t, &a) in found.trimmed.from.iter().enumerate() {
+        let foot = found.shape.foot_of[a as usize];
+        let [p, q, r] = design.corners(t);
+        if foot == NONE || p.z.max(q.z).max(r.z) - p.z.min(q.z).min(r.z) <= MEASURABLE_HEIGHT {
+            continue;
+        }
+        let sheet = if design.parts[t] == Part::CutSlope { Sheet::Rising } else { Sheet::Falling };
+        let Some(slope) = found.designs.iter().find(|d| d.sheet == sheet).map(|d| d.slope) else { continue };
+        let normal = (q - p).cross(r - p);
+        // A sliver along the daylight line has no normal that its own rounding would not turn.
+        let base = (q - p).length().max((r - q).length()).max((p - r).length());
+        if normal.length() <= base * MEASURABLE_HEIGHT {
+            continue;
+        }
+        let deviation = (normal.truncate().length().atan2(normal.z) - slope.ratio().atan()).abs().to_degrees();
+        let on_cone = found.shape.feet[foot as usize].on_cone;
+        let worst = if on_cone { &mut certificate.sector_max_deviation_deg } else { &mut certificate.strip_max_deviation_deg };
+        *worst = worst.max(deviation);
+        certificate.triangles_beyond_0_1deg += usize::from(deviation > 0.1);
+    }
+    let flaw = flaw(soundness, design).or_else(|| {
+        let (strip, cone) = (certificate.strip_max_deviation_deg, certificate.sector_max_deviation_deg);
+        (strip > 0.01 || cone > 0.1).then(|| format!("a slope triangle is {:.4}° off the slope", strip.max(cone)))
+    });
+    match flaw {
+        Some(what) => Err(GroundError::Unsound { mesh: "design", what }),
+        None => Ok(certificate),
+    }
+}
+
+fn flaw(soundness: &Soundness, tin: &Tin) -> Option<String> {
+    if !soundness.manifold() {
+        return Some(format!(
+            "{} triangles turned over or degenerate, {} edges used twice, {} unused vertices",
+            soundness.turned, soundness.repeated_edges, soundness.unused
+        ));
+    }
+    soundness.overlap_at.map(|at| {
+        let at = tin.frame.to_world(at.extend(0.0));
+        format!("its boundary crosses itself {} times, first near ({:.3}, {:.3})", soundness.overlaps, at.x, at.y)
+    })
+}
+
+/// The pieces of boundary where design and ground meet, as numbers of nodes.
+fn met(found: &Found) -> Vec<([u32; 2], Part)> {
+    let ends = |border: &Border| {
+        let (from, to) = (found.nodes.meeting(border.from)?, found.nodes.meeting(border.to)?);
+        (from != to).then_some(([from, to], found.shape.parts[border.a as usize]))
+    };
+    found.works.daylight.iter().chain(&found.works.borders).filter_map(ends).collect()
+}
+
+fn daylight(found: &Found) -> Daylight {
+    let met = met(found);
+    let length = |e: &[u32; 2]| {
+        let [p, q] = e.map(|v| found.nodes.places[v as usize].truncate());
+        p.distance(q)
+    };
+    let of = |part: Part| met.iter().filter(|(_, p)| *p == part).map(|(e, _)| length(e)).collect::<Sum>().value();
+    let edges: Vec<[u32; 2]> = met.iter().map(|(e, _)| *e).collect();
+    Daylight {
+        loops: polygon::loops(&edges).0.len(),
+        length: met.iter().map(|(e, _)| length(e)).collect::<Sum>().value(),
+        fill_length: of(Part::FillSlope),
+        cut_length: of(Part::CutSlope),
+        open_length: found
+            .works
+            .open
+            .iter()
+            .map(|o| o.points[0].truncate().distance(o.points[1].truncate()))
+            .collect::<Sum>()
+            .value(),
+    }
+}
+
+fn lines(found: &Found, number: &Numbering, design: &Tin, edges: &HalfEdges) -> Vec<LineFeature> {
+    let mut marks: Vec<(Mark, [u32; 2])> = Vec::new();
+    for &(mark, ends) in &found.shape.marks {
+        let whole = [ends.map(|v| found.nodes.design(v))];
+        let pieces = found.trimmed.pieces.get(&ends).map_or(&whole[..], |list| list);
+        for piece in pieces {
+            let [Some(a), Some(b)] = piece.map(|id| number.get(id)) else { continue };
+            if edges.has(a, b) || edges.has(b, a) {
+                marks.push((mark, [a.min(b), a.max(b)]));
+            }
+        }
+    }
+    marks.sort_unstable();
+    marks.dedup();
+    let met = met(found);
+    let numbered = |e: &[u32; 2]| Some([number.get(e[0])?, number.get(e[1])?]);
+    let on_ground: FxHashSet<[u32; 2]> = met.iter().filter_map(|(e, _)| numbered(e)).collect();
+    let open: Vec<[u32; 2]> = edges.open().into_iter().filter(|e| !on_ground.contains(e)).collect();
+    let mut features = curves::lines(found.line, &found.shape.levels, design, &marks, &open);
+    for part in [Part::FillSlope, Part::CutSlope, Part::Platform] {
+        let segments: Vec<[u32; 2]> = met.iter().filter(|(_, p)| *p == part).map(|(e, _)| *e).collect();
+        push(&mut features, found, &segments, CurveKind::Daylight, Some(part));
+    }
+    let mut zero: Vec<[Label; 2]> = found.works.zero.keys().map(|&(p, q)| [p, q]).collect();
+    zero.sort_unstable();
+    let zero: Vec<[u32; 2]> = zero
+        .into_iter()
+        .filter_map(|[p, q]| Some([found.nodes.meeting(p)?, found.nodes.meeting(q)?]))
+        .filter(|e| e[0] != e[1])
+        .collect();
+    push(&mut features, found, &zero, CurveKind::Zero, None);
+    features
+}
+
+fn push(features: &mut Vec<LineFeature>, found: &Found, segments: &[[u32; 2]], kind: CurveKind, part: Option<Part>) {
+    for path in chained(segments) {
+        let points = path.into_iter().map(|v| found.shape.frame.to_world(found.nodes.places[v as usize])).collect();
+        features.push(LineFeature { kind, points, elevation: None, chain: None, part });
+    }
+}
+
+/// Refuses upright walls: boundary of the works along the line where the line is not on the ground.
+///
+/// # Errors
+/// [`GroundError::Walls`], [`GroundError::Open`].
+pub(crate) fn check_walls(shape: &Shape, works: &Works, nodes: &Nodes) -> Result<(), GroundError> {
+    let (mut length, mut height, mut place) = (Sum::default(), 0.0_f64, None);
+    for border in &works.borders {
+        if nodes.meeting(border.from).is_none() || nodes.meeting(border.to).is_none() {
+            let [p, q] = border.points;
+            length.add(p.truncate().distance(q.truncate()));
+            height = height.max(border.height);
+            place.get_or_insert(0.5 * (p + q));
+        }
+    }
+    for open in &works.open {
+        length.add(open.points[0].truncate().distance(open.points[1].truncate()));
+        height = height.max(open.height);
+        place.get_or_insert(open.points[0]);
+    }
+    match place {
+        Some(p) if height > TOUCH => {
+            let at: DVec3 = shape.frame.to_world(p);
+            Err(GroundError::Walls { length: length.value(), height, x: at.x, y: at.y })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The whole ground with the works in it: vertices of the ground first, in the order given.
+fn finished(found: &Found, left: &Left) -> Result<Tin, GroundError> {
+    let (terrain, patch, nodes) = (found.terrain, found.patch, found.nodes);
+    let mut in_patch = vec![false; terrain.triangles.len()];
+    patch.triangle_of.iter().for_each(|&t| in_patch[t as usize] = true);
+    left.kept.iter().for_each(|&b| in_patch[patch.triangle_of[b as usize] as usize] = false);
+    let new: Vec<([u32; 3], Part)> = left
+        .pieces
+        .iter()
+        .map(|&t| (t, Part::Ground))
+        .chain(found.trimmed.triangles.iter().zip(&found.trimmed.from).map(|(&t, &a)| (t, found.shape.parts[a as usize])))
+        .collect();
+    check_finished(found, left, &new)?;
+    let mut number = vec![NONE; terrain.vertices.len()];
+    let given = (0..terrain.triangles.len()).filter(|&t| !in_patch[t]);
+    given.clone().for_each(|t| terrain.triangles[t].iter().for_each(|&v| number[v as usize] = 0));
+    for id in new.iter().flat_map(|(t, _)| t) {
+        if let Some(v) = nodes.as_ground(*id, patch) {
+            number[v as usize] = 0;
+        }
+    }
+    let mut vertices = Vec::new();
+    for (v, id) in number.iter_mut().enumerate().filter(|(_, id)| **id == 0) {
+        *id = vertices.len() as u32;
+        vertices.push(terrain.vertices[v]);
+    }
+    let mut others = vec![NONE; nodes.places.len()];
+    let mut triangles: Vec<[u32; 3]> = given.map(|t| terrain.triangles[t].map(|v| number[v as usize])).collect();
+    let mut parts = vec![Part::Ground; triangles.len()];
+    for (t, part) in new {
+        triangles.push(t.map(|id| match nodes.as_ground(id, patch) {
+            Some(v) => number[v as usize],
+            None => {
+                let number = &mut others[id as usize];
+                if *number == NONE {
+                    *number = vertices.len() as u32;
+                    vertices.push(nodes.places[id as usize]);
+                }
+                *number
+            }
+        }));
+        parts.push(part);
+    }
+    Ok(Tin { frame: terrain.frame, vertices, triangles, parts })
+}
+
+/// The patch with the works in it must be sound, and end where the patch ended.
+fn check_finished(found: &Found, left: &Left, new: &[([u32; 3], Part)]) -> Result<(), GroundError> {
+    let (patch, nodes) = (found.patch, found.nodes);
+    let mut number = Numbering::default();
+    let kept = left.kept.iter().map(|&b| patch.triangles[b as usize].map(|v| nodes.ground(v)));
+    let triangles: Vec<[u32; 3]> = kept.chain(new.iter().map(|(t, _)| *t)).map(|t| number.triangle(t)).collect();
+    let vertices: Vec<DVec3> = number.ids.iter().map(|&id| nodes.places[id as usize]).collect();
+    let edges = HalfEdges::new(vertices.len(), &triangles);
+    let soundness = check::check(&vertices, &triangles, &edges);
+    let tin = Tin { frame: found.shape.frame, vertices, triangles, parts: Vec::new() };
+    let unsound = |what: String| Err(GroundError::Unsound { mesh: "finished ground", what });
+    if let Some(what) = flaw(&soundness, &tin) {
+        return unsound(what);
+    }
+    let mut rim: FxHashSet<[u32; 2]> = FxHashSet::default();
+    for b in 0..patch.triangles.len() {
+        for j in 0..3 {
+            if patch.neighbours[b][j] == NONE {
+                rim.insert([patch.triangles[b][j], patch.triangles[b][(j + 1) % 3]].map(|v| nodes.ground(v)));
+            }
+        }
+    }
+    let torn = soundness.boundary.iter().find(|e| !rim.contains(&e.map(|v| number.ids[v as usize])));
+    match torn {
+        Some(e) => {
+            let at = tin.world(e[0] as usize);
+            unsound(format!("it has a crack near ({:.3}, {:.3})", at.x, at.y))
+        }
+        None => Ok(()),
+    }
+}
+
+/// The axes of the figures.
+impl Ground {
+    /// What stations are counted along.
+    pub fn axes(&self) -> &[Axis] {
+        self.stations.axes()
+    }
+}

@@ -1,0 +1,174 @@
+//! The ground outside the works: given triangles as they are, and what is left of those that the works cut.
+
+use super::cell::{Corner, Label, cell, class};
+use super::nodes::Nodes;
+use super::patch::{NONE, Patch};
+use super::shape::Shape;
+use super::trimmed::{Passing, along};
+use super::works::{Border, Works, clip, split_sides};
+use crate::mesh::polygon;
+use crate::mesh::region::RegionError;
+use crate::model::Part;
+use rustc_hash::FxHashMap;
+
+/// What the works leave of the patch of ground.
+pub(crate) struct Left {
+    /// Triangles of the patch that stay as they are.
+    pub(crate) kept: Vec<u32>,
+    /// Remainders of the others, in numbers of [`Nodes`].
+    pub(crate) pieces: Vec<[u32; 3]>,
+}
+
+/// What bears on one triangle of the ground.
+#[derive(Default)]
+struct Cut {
+    /// Triangles of the design over it.
+    over: Vec<u32>,
+    /// Boundary of the works through its inside.
+    borders: Vec<Border>,
+}
+
+/// A stretch of a side covered by the works: place along it and number of both ends.
+type Stretch = [(f64, u32); 2];
+
+impl Left {
+    /// Takes the works out of the ground. `whole`: everything of the design counts, whatever its height.
+    ///
+    /// # Errors
+    /// [`RegionError`] if a remainder cannot be triangulated.
+    pub(crate) fn new(shape: &Shape, patch: &Patch, works: &Works, nodes: &Nodes, whole: bool) -> Result<Self, RegionError> {
+        let cuts = cuts(patch, works);
+        let mut covered = vec![false; patch.triangles.len()];
+        works.cells.iter().for_each(|&(_, b)| covered[b as usize] = true);
+        let mut left = Self { kept: Vec::new(), pieces: Vec::new() };
+        for b in 0..patch.triangles.len() as u32 {
+            match cuts.get(&b) {
+                Some(cut) => {
+                    let mut passing = Passing::new(nodes);
+                    let edges = remainder(shape, patch, works, nodes, &mut passing, b, cut, whole);
+                    left.pieces.extend(polygon::fill(&nodes.places, &edges, |v| passing.is_vertex(v))?);
+                }
+                None if !covered[b as usize] => left.kept.push(b),
+                None => {}
+            }
+        }
+        Ok(left)
+    }
+}
+
+/// The triangles that are not wholly in the works or out of them.
+fn cuts(patch: &Patch, works: &Works) -> FxHashMap<u32, Cut> {
+    let mut cuts: FxHashMap<u32, Cut> = FxHashMap::default();
+    for border in works.daylight.iter().chain(&works.borders) {
+        let cut = cuts.entry(border.b).or_default();
+        if border.side.ground.is_none() {
+            cut.borders.push(*border);
+        }
+    }
+    // A point on a side is a vertex for the triangles on both of its sides.
+    for b in 0..patch.triangles.len() as u32 {
+        if !cuts.contains_key(&b) && (0..3).any(|j| works.on_ground.contains_key(&patch.edge(b, j))) {
+            cuts.insert(b, Cut::default());
+        }
+    }
+    for &(a, b) in &works.cells {
+        if let Some(cut) = cuts.get_mut(&b) {
+            cut.over.push(a);
+        }
+    }
+    cuts
+}
+
+/// Directed edges around what is left of ground triangle `b`.
+#[allow(clippy::too_many_arguments)]
+fn remainder(
+    shape: &Shape,
+    patch: &Patch,
+    works: &Works,
+    nodes: &Nodes,
+    passing: &mut Passing,
+    b: u32,
+    cut: &Cut,
+    whole: bool,
+) -> Vec<[u32; 2]> {
+    let t = patch.triangles[b as usize];
+    let ends = |j: usize| [t[j], t[(j + 1) % 3]];
+    let mut stretches: [Vec<Stretch>; 3] = Default::default();
+    let mut edges = Vec::new();
+    let (mut corners, mut kept) = (Vec::new(), Vec::new());
+    for &a in &cut.over {
+        cell(shape, patch, a, b, &mut corners);
+        let part = shape.parts[a as usize];
+        match part {
+            Part::FillSlope | Part::CutSlope if !whole => {
+                let sense = if part == Part::CutSlope { -1.0 } else { 1.0 };
+                clip(shape, patch, (a, b), &corners, sense, &mut kept);
+            }
+            _ => split_sides(shape, patch, (a, b), &corners, &mut kept),
+        }
+        for (n, corner) in kept.iter().enumerate() {
+            let Some(j) = corner.side.ground else { continue };
+            let [p, q] = ends(j as usize).map(|v| patch.vertices[v as usize].truncate());
+            let mut place = |c: &Corner| ((c.at - p).dot(q - p), on_side(c, nodes, passing));
+            stretches[j as usize].push([place(corner), place(&kept[(n + 1) % kept.len()])]);
+        }
+    }
+    for border in &cut.borders {
+        if let (Some(from), Some(to)) = (nodes.meeting(border.from), nodes.meeting(border.to)) {
+            edges.push([to, from]);
+        }
+    }
+    for (j, list) in stretches.iter_mut().enumerate() {
+        let labels = works.on_ground.get(&patch.edge(b, j as u8)).map_or(&[][..], |list| list);
+        let ids = labels.iter().filter_map(|&label| nodes.meeting(label));
+        let path = along(nodes, ends(j).map(|v| nodes.ground(v)), ids);
+        uncovered(list, &path, &mut edges);
+    }
+    edges
+}
+
+/// Number of a corner on a side of a ground triangle. Vertices of the ground are themselves; a vertex of the design counts only
+/// where it meets the ground.
+fn on_side(corner: &Corner, nodes: &Nodes, passing: &mut Passing) -> u32 {
+    match corner.label {
+        Label::Ground(v) => nodes.ground(v),
+        _ if class(corner.h) == 0 => passing.id(corner),
+        _ => passing.id(&Corner { vertex: NONE, ..*corner }),
+    }
+}
+
+/// The edges of `path`, a side with all its vertices, that no stretch covers.
+fn uncovered(stretches: &mut [Stretch], path: &[u32], edges: &mut Vec<[u32; 2]>) {
+    stretches.sort_by(|p, q| p[0].0.total_cmp(&q[0].0).then(p[1].0.total_cmp(&q[1].0)));
+    // Stretches follow one another by number; what is between the end of one and the start of the next is free.
+    let position: FxHashMap<u32, usize> = path.iter().enumerate().map(|(n, &v)| (v, n)).collect();
+    let mut covered = vec![false; path.len() - 1];
+    let mut start: Option<usize> = None;
+    for s in stretches.iter() {
+        if start.is_none() {
+            start = position.get(&s[0].1).copied();
+        }
+        if let (Some(from), Some(&to)) = (start, position.get(&s[1].1)) {
+            covered[from.min(to)..to.max(from)].iter_mut().for_each(|c| *c = true);
+            start = None;
+        }
+    }
+    edges.extend((0..covered.len()).filter(|&n| !covered[n]).map(|n| [path[n], path[n + 1]]));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A side 1–2–3–4 with the stretches 1–2 and 3–x–4, x no vertex: 2–3 is free.
+    #[test]
+    fn free_stretches_of_a_side() {
+        let mut edges = Vec::new();
+        let mut stretches = [[(6.0, 9), (8.0, 4)], [(0.0, 1), (2.0, 2)], [(4.0, 3), (6.0, 9)]];
+        uncovered(&mut stretches, &[1, 2, 3, 4], &mut edges);
+        assert_eq!(edges, [[2, 3]]);
+        edges.clear();
+        uncovered(&mut [], &[1, 2, 3, 4], &mut edges);
+        assert_eq!(edges, [[1, 2], [2, 3], [3, 4]]);
+    }
+}

@@ -1,0 +1,134 @@
+//! Numbers and places of everything that can become a vertex: of the design, of the ground, and where the two meet.
+
+use super::cell::Label;
+use super::patch::Patch;
+use super::shape::Shape;
+use super::works::Works;
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+/// Vertices closer than this in plan (length units) where design and ground meet become one.
+const WELD: f64 = 2e-8;
+
+/// Vertex numbers: first those of the design, then those of the patch of ground, then the new ones.
+pub(crate) struct Nodes {
+    /// Places in the local frame, rounded to what a file can hold in world coordinates.
+    pub(crate) places: Vec<DVec3>,
+    /// What each number stands for in the end: itself, or the vertex it was joined with.
+    alias: Vec<u32>,
+    /// Numbers of the points where design and ground meet.
+    of: FxHashMap<Label, u32>,
+    ground: u32,
+}
+
+impl Nodes {
+    /// Numbers the points of the works.
+    pub(crate) fn new(shape: &Shape, patch: &Patch, works: &Works) -> Self {
+        let places: Vec<DVec3> = shape.vertices.iter().chain(&patch.vertices).copied().collect();
+        let ground = shape.vertices.len() as u32;
+        let alias = (0..places.len() as u32).collect();
+        let mut nodes = Self { places, alias, of: FxHashMap::default(), ground };
+        for &[design, of_ground] in &works.twins {
+            nodes.alias[design as usize] = ground + of_ground;
+        }
+        // Ground first, then design, then the rest: what comes first stays where it is.
+        let mut labels: Vec<(Label, DVec3)> = works.points.iter().map(|(&label, &p)| (label, p)).collect();
+        labels.sort_unstable_by_key(|(label, _)| *label);
+        let mut near = Near::default();
+        for (label, p) in labels {
+            let p = shape.frame.to_local(shape.frame.to_world(p));
+            let own = match label {
+                Label::Ground(v) => Some(ground + v),
+                Label::Design(v) => Some(nodes.alias[v as usize]),
+                _ => nodes.end(label, p),
+            };
+            let id = match (near.find(&nodes.places, p), own) {
+                (Some(id), Some(own)) if own < ground => {
+                    nodes.alias[own as usize] = id;
+                    id
+                }
+                // Two vertices of the ground stay two.
+                (_, Some(own)) => own,
+                (Some(id), None) => id,
+                (None, None) => {
+                    nodes.places.push(p);
+                    nodes.alias.push(nodes.alias.len() as u32);
+                    nodes.places.len() as u32 - 1
+                }
+            };
+            near.add(id, p);
+            nodes.of.insert(label, id);
+        }
+        nodes
+    }
+
+    /// The end of the edge that `label` lies on, if it is that close.
+    fn end(&self, label: Label, p: DVec3) -> Option<u32> {
+        let design = |edge: [u32; 2]| edge;
+        let ground = |edge: [u32; 2]| edge.map(|v| self.ground + v);
+        let ends = match label {
+            Label::DesignMeets(edge, _) => [design(edge), design(edge)],
+            Label::GroundMeets(edge, _) => [ground(edge), ground(edge)],
+            Label::EdgesMeet(d, g) | Label::Cross(d, g) => [ground(g), design(d)],
+            Label::Ground(_) | Label::Design(_) => return None,
+        };
+        let close = |v: &&u32| self.places[**v as usize].truncate().distance(p.truncate()) <= WELD;
+        ends.as_flattened().iter().find(close).map(|&v| self.alias[v as usize])
+    }
+
+    /// Number of a vertex of the design.
+    pub(crate) fn design(&self, v: u32) -> u32 {
+        self.alias[v as usize]
+    }
+
+    /// Number of a vertex of the ground.
+    pub(crate) fn ground(&self, v: u32) -> u32 {
+        self.ground + v
+    }
+
+    /// The vertex of the ground with this number.
+    pub(crate) fn as_ground(&self, id: u32, patch: &Patch) -> Option<u32> {
+        let v = id.checked_sub(self.ground)?;
+        patch.vertex_of.get(v as usize).copied()
+    }
+
+    /// Number of a point where design and ground meet.
+    pub(crate) fn meeting(&self, label: Label) -> Option<u32> {
+        self.of.get(&label).copied()
+    }
+}
+
+/// Vertices by squares of the size of [`WELD`].
+#[derive(Default)]
+struct Near {
+    squares: FxHashMap<[i64; 2], Vec<u32>>,
+}
+
+impl Near {
+    fn square(p: DVec3) -> [i64; 2] {
+        [(p.x / WELD).floor() as i64, (p.y / WELD).floor() as i64]
+    }
+
+    fn find(&self, places: &[DVec3], p: DVec3) -> Option<u32> {
+        let [x, y] = Self::square(p);
+        let mut best: Option<(f64, u32)> = None;
+        for i in x - 1..=x + 1 {
+            for j in y - 1..=y + 1 {
+                for &id in self.squares.get(&[i, j]).into_iter().flatten() {
+                    let d = places[id as usize].truncate().distance(p.truncate());
+                    if d <= WELD && best.is_none_or(|(least, _)| d < least) {
+                        best = Some((d, id));
+                    }
+                }
+            }
+        }
+        best.map(|(_, id)| id)
+    }
+
+    fn add(&mut self, id: u32, p: DVec3) {
+        let list = self.squares.entry(Self::square(p)).or_default();
+        if !list.contains(&id) {
+            list.push(id);
+        }
+    }
+}

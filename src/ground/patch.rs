@@ -1,0 +1,196 @@
+//! The part of the ground that the works can touch, with neighbours.
+
+use crate::model::Terrain;
+use glam::{DVec2, DVec3};
+
+/// No neighbour.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// Triangles with their neighbours: side `i` runs from corner `i` to the next.
+pub(crate) struct Patch {
+    /// Vertices in the local frame.
+    pub(crate) vertices: Vec<DVec3>,
+    /// The number of each vertex in the whole ground.
+    pub(crate) vertex_of: Vec<u32>,
+    /// Counter-clockwise triangles.
+    pub(crate) triangles: Vec<[u32; 3]>,
+    /// The number of each triangle in the whole ground, ascending.
+    pub(crate) triangle_of: Vec<u32>,
+    /// Neighbours across the sides; [`NONE`] at the edge.
+    pub(crate) neighbours: Vec<[u32; 3]>,
+    bins: Bins,
+}
+
+impl Patch {
+    /// The triangles `chosen` of a ground.
+    pub(crate) fn new(terrain: &Terrain, chosen: Vec<u32>) -> Self {
+        let mut number = vec![NONE; terrain.vertices.len()];
+        let mut vertex_of = Vec::new();
+        let triangles: Vec<[u32; 3]> = chosen
+            .iter()
+            .map(|&t| {
+                terrain.triangles[t as usize].map(|v| {
+                    let id = &mut number[v as usize];
+                    if *id == NONE {
+                        *id = vertex_of.len() as u32;
+                        vertex_of.push(v);
+                    }
+                    *id
+                })
+            })
+            .collect();
+        let vertices: Vec<DVec3> = vertex_of.iter().map(|&v| terrain.vertices[v as usize]).collect();
+        let neighbours = neighbours(vertices.len(), &triangles);
+        let bins = Bins::new(&vertices, &triangles);
+        Self { vertices, vertex_of, triangles, triangle_of: chosen, neighbours, bins }
+    }
+
+    /// Ends of side `j` of triangle `t`, lower vertex first.
+    pub(crate) fn edge(&self, t: u32, j: u8) -> [u32; 2] {
+        let t = self.triangles[t as usize];
+        let (v, w) = (t[j as usize], t[(j as usize + 1) % 3]);
+        [v.min(w), v.max(w)]
+    }
+
+    /// Calls `visit` with every triangle whose box comes near the segment from `a` to `b`; some come more than once.
+    pub(crate) fn near(&self, a: DVec2, b: DVec2, mut visit: impl FnMut(u32)) {
+        self.bins.along(a, b, |bin| {
+            let range = self.bins.start[bin] as usize..self.bins.start[bin + 1] as usize;
+            self.bins.list[range].iter().for_each(|&t| visit(t));
+        });
+    }
+}
+
+/// Neighbours of triangles across their sides; [`NONE`] where there is none. Sides used more than twice pair up in order.
+pub(crate) fn neighbours(vertex_count: usize, triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
+    // Sides by their lower end: a counting sort, then a short list each.
+    let mut start = vec![0_u32; vertex_count + 1];
+    for t in triangles {
+        for i in 0..3 {
+            start[t[i].min(t[(i + 1) % 3]) as usize + 1] += 1;
+        }
+    }
+    for v in 0..vertex_count {
+        start[v + 1] += start[v];
+    }
+    let mut next = start.clone();
+    let mut sides = vec![(0_u32, 0_u32); 3 * triangles.len()];
+    for (n, t) in triangles.iter().enumerate() {
+        for i in 0..3 {
+            let (a, b) = (t[i], t[(i + 1) % 3]);
+            let slot = &mut next[a.min(b) as usize];
+            sides[*slot as usize] = (a.max(b), 3 * n as u32 + i as u32);
+            *slot += 1;
+        }
+    }
+    let mut found = vec![[NONE; 3]; triangles.len()];
+    for v in 0..vertex_count {
+        let list = &sides[start[v] as usize..start[v + 1] as usize];
+        for (n, &(end, side)) in list.iter().enumerate() {
+            for &(other_end, other) in &list[n + 1..] {
+                let (t, u) = ((side / 3) as usize, (other / 3) as usize);
+                let (i, j) = ((side % 3) as usize, (other % 3) as usize);
+                if end == other_end && found[t][i] == NONE && found[u][j] == NONE && triangles[t][i] != triangles[u][j] {
+                    found[t][i] = u as u32;
+                    found[u][j] = t as u32;
+                }
+            }
+        }
+    }
+    found
+}
+
+/// Triangles by the bins their boxes overlap.
+struct Bins {
+    origin: DVec2,
+    cell: f64,
+    size: [usize; 2],
+    start: Vec<u32>,
+    list: Vec<u32>,
+}
+
+/// Triangles per bin, on average.
+const TRIANGLES_PER_BIN: f64 = 4.0;
+
+/// Bins are taken wider by this part when a segment is followed, so that rounding loses none.
+const WIDER: f64 = 0.01;
+
+/// A triangle is listed in at most this many bins one by one; larger ones go to a list of their own.
+const MOST_BINS: usize = 256;
+
+impl Bins {
+    fn new(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Self {
+        let (lo, hi) = vertices
+            .iter()
+            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(lo, hi), v| (lo.min(v.truncate()), hi.max(v.truncate())));
+        if triangles.is_empty() {
+            return Self { origin: DVec2::ZERO, cell: 1.0, size: [0, 0], start: vec![0, 0], list: Vec::new() };
+        }
+        let extent = hi - lo;
+        let bins = (triangles.len() as f64 / TRIANGLES_PER_BIN).max(1.0);
+        let cell = (extent.x * extent.y / bins).sqrt().max(extent.max_element() / bins).max(f64::MIN_POSITIVE);
+        let size = [(extent.x / cell) as usize + 1, (extent.y / cell) as usize + 1];
+        let mut bins = Self { origin: lo, cell, size, start: Vec::new(), list: Vec::new() };
+        // The last list takes the large ones.
+        let large = size[0] * size[1];
+        let mut start = vec![0_u32; large + 2];
+        let each = |bins: &Self, t: &[u32; 3], visit: &mut dyn FnMut(usize)| {
+            let p = t.map(|v| vertices[v as usize].truncate());
+            let (lo, hi) = (bins.place(p[0].min(p[1]).min(p[2])), bins.place(p[0].max(p[1]).max(p[2])));
+            if (hi[0] - lo[0] + 1) * (hi[1] - lo[1] + 1) > MOST_BINS {
+                visit(large);
+                return;
+            }
+            for y in lo[1]..=hi[1] {
+                (lo[0]..=hi[0]).for_each(|x| visit(y * bins.size[0] + x));
+            }
+        };
+        for t in triangles {
+            each(&bins, t, &mut |bin| start[bin + 1] += 1);
+        }
+        for i in 0..=large {
+            start[i + 1] += start[i];
+        }
+        let mut next = start.clone();
+        let mut list = vec![0_u32; start[large + 1] as usize];
+        for (n, t) in triangles.iter().enumerate() {
+            each(&bins, t, &mut |bin| {
+                list[next[bin] as usize] = n as u32;
+                next[bin] += 1;
+            });
+        }
+        bins.start = start;
+        bins.list = list;
+        bins
+    }
+
+    /// Column and row of a place, within the grid.
+    fn place(&self, p: DVec2) -> [usize; 2] {
+        let at = (p - self.origin) / self.cell;
+        let clamp = |v: f64, size: usize| (v.max(0.0) as usize).min(size - 1);
+        [clamp(at.x, self.size[0]), clamp(at.y, self.size[1])]
+    }
+
+    /// Bins that the segment comes into, one row after the other, and the list of the large triangles.
+    fn along(&self, a: DVec2, b: DVec2, mut visit: impl FnMut(usize)) {
+        if self.list.is_empty() {
+            return;
+        }
+        visit(self.size[0] * self.size[1]);
+        let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
+        let far = self.origin + self.cell * DVec2::new(self.size[0] as f64, self.size[1] as f64);
+        if b.y < self.origin.y || a.y > far.y || a.x.max(b.x) < self.origin.x || a.x.min(b.x) > far.x {
+            return;
+        }
+        let x_at = |y: f64| if b.y > a.y { a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)).clamp(0.0, 1.0) } else { b.x };
+        for y in self.place(a)[1]..=self.place(b)[1] {
+            let bottom = self.origin.y + self.cell * (y as f64 - WIDER);
+            let (p, q) = (x_at(bottom), x_at(bottom + (1.0 + 2.0 * WIDER) * self.cell));
+            let (p, q) = if b.y > a.y { (p.min(q), p.max(q)) } else { (a.x.min(b.x), a.x.max(b.x)) };
+            let slack = WIDER * self.cell;
+            let from = self.place(DVec2::new(p - slack, bottom))[0];
+            let to = self.place(DVec2::new(q + slack, bottom))[0];
+            (from..=to).for_each(|x| visit(y * self.size[0] + x));
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! Stations: where along the axes figures are told apart.
+
+use super::Axis;
+use glam::DVec2;
+use std::fmt;
+
+/// Most intervals over all axes. Each becomes a row of the report; a road of 1000 km has as many at 10 m.
+pub const MOST_STATIONS: usize = 100_000;
+
+/// A last interval shorter than this, in the length unit, is rounding of the length: it belongs to the one before.
+const SHORTEST: f64 = 1e-6;
+
+/// A station this near a vertex of the axis, in the length unit, is at the vertex.
+const AT_VERTEX: f64 = 1e-6;
+
+/// The axes and their intervals, the same for volumes and cross-sections.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stations {
+    axes: Vec<Axis>,
+    spacing: Option<f64>,
+    /// Of each axis: ends of its intervals, ascending, from 0 to its length; at least two.
+    breaks: Vec<Vec<f64>>,
+}
+
+/// A spacing that would give more than [`MOST_STATIONS`] intervals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TooManyStations {
+    /// The spacing asked for.
+    pub spacing: f64,
+    /// Length of all axes.
+    pub length: f64,
+}
+
+impl fmt::Display for TooManyStations {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let least = 2.0 * self.length / MOST_STATIONS as f64;
+        // Rounded up to one digit, so that following the advice helps.
+        let digit = 10f64.powf(least.log10().floor());
+        write!(
+            f,
+            "there would be too many stations\n  --> --stations {}\n   = axes of length {:.3} in all; at most {MOST_STATIONS} \
+             intervals\n   = help: give a spacing of {} or more",
+            self.spacing,
+            self.length,
+            (least / digit).ceil() * digit
+        )
+    }
+}
+
+impl std::error::Error for TooManyStations {}
+
+impl Stations {
+    /// Breaks at the whole multiples of `spacing` along every axis, the last interval shorter; without a spacing each axis is one
+    /// interval. A spacing that is not positive counts as none.
+    ///
+    /// # Errors
+    /// [`TooManyStations`].
+    pub fn new(axes: Vec<Axis>, spacing: Option<f64>) -> Result<Self, TooManyStations> {
+        let spacing = spacing.filter(|d| *d > 0.0);
+        if let Some(spacing) = spacing {
+            let length: f64 = axes.iter().map(|axis| axis.length).sum();
+            let count: f64 = axes.iter().map(|axis| (axis.length / spacing).ceil()).sum();
+            // Written so that a count that is no number is refused as well.
+            if !(count <= MOST_STATIONS as f64) {
+                return Err(TooManyStations { spacing, length });
+            }
+        }
+        let breaks = axes.iter().map(|axis| breaks(axis.length, spacing)).collect();
+        Ok(Self { axes, spacing, breaks })
+    }
+
+    /// The axes.
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    /// The spacing asked for.
+    pub fn spacing(&self) -> Option<f64> {
+        self.spacing
+    }
+
+    /// Ends of the intervals of an axis, ascending, one more than there are intervals; empty for an axis there is not.
+    pub fn breaks(&self, axis: usize) -> &[f64] {
+        self.breaks.get(axis).map_or(&[], Vec::as_slice)
+    }
+}
+
+fn breaks(length: f64, spacing: Option<f64>) -> Vec<f64> {
+    let mut breaks = vec![0.0];
+    if let Some(spacing) = spacing {
+        let inner = (1..).map(|i: u32| f64::from(i) * spacing).take_while(|s| *s < length - SHORTEST);
+        breaks.extend(inner);
+    }
+    breaks.push(length);
+    breaks
+}
+
+/// The interval a station lies in: at a break the one that begins there, except at the very end.
+pub(super) fn interval_of(breaks: &[f64], station: f64) -> usize {
+    let begun = breaks.partition_point(|b| *b <= station);
+    begun.saturating_sub(1).min(breaks.len().saturating_sub(2))
+}
+
+/// Point and unit direction of an axis at a station. At a vertex the direction is the mean of both neighbours.
+pub(super) fn place(axis: &Axis, station: f64) -> Option<(DVec2, DVec2)> {
+    let line = &axis.line;
+    let direction = |i: usize| {
+        let ends = line.get(i).zip(line.get(i + 1));
+        ends.map_or(DVec2::ZERO, |(a, b)| (b.0 - a.0).normalize_or_zero())
+    };
+    let segments = line.len().checked_sub(1).filter(|n| *n > 0)?;
+    let i = line.partition_point(|v| v.1 <= station).saturating_sub(1).min(segments - 1);
+    let ((from, s0), (to, s1)) = (line[i], line[i + 1]);
+    let before = if i > 0 { Some(i - 1) } else { axis.closed.then_some(segments - 1) };
+    let after = if i + 1 < segments { Some(i + 1) } else { axis.closed.then_some(0) };
+    let (at, neighbour) = if station - s0 <= AT_VERTEX {
+        (from, before)
+    } else if s1 - station <= AT_VERTEX {
+        (to, after)
+    } else {
+        (from.lerp(to, (station - s0) / (s1 - s0)), None)
+    };
+    let own = direction(i);
+    // A line that turns back on itself has no mean direction there.
+    let mean = (own + neighbour.map_or(DVec2::ZERO, direction)).normalize_or_zero();
+    Some((at, if mean == DVec2::ZERO { own } else { mean }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ground::testing::{closed_axis, straight_axis};
+
+    #[test]
+    fn breaks_are_multiples_and_the_last_is_shorter() {
+        let of = |length, spacing| Stations::new(vec![straight_axis(length)], spacing).unwrap().breaks(0).to_vec();
+        assert_eq!(of(50.0, Some(20.0)), [0.0, 20.0, 40.0, 50.0]);
+        assert_eq!(of(40.0 + 1e-9, Some(20.0)), [0.0, 20.0, 40.0 + 1e-9]);
+        assert_eq!(of(40.0 - 1e-9, Some(20.0)), [0.0, 20.0, 40.0 - 1e-9]);
+        assert_eq!(of(5.0, Some(20.0)), [0.0, 5.0]);
+        assert_eq!(of(5.0, None), [0.0, 5.0]);
+        assert_eq!(of(5.0, Some(-1.0)), [0.0, 5.0]);
+    }
+
+    #[test]
+    fn too_many_are_refused_with_a_spacing_that_does() {
+        let error = Stations::new(vec![straight_axis(1000.0), straight_axis(1000.0)], Some(1e-3)).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "there would be too many stations\n  --> --stations 0.001\n   = axes of length 2000.000 in all; at most 100000 \
+             intervals\n   = help: give a spacing of 0.04 or more"
+        );
+        assert!(Stations::new(vec![straight_axis(1000.0); 2], Some(0.04)).is_ok());
+        assert!(Stations::new(vec![straight_axis(f64::NAN)], Some(1.0)).is_err());
+        assert!(Stations::new(vec![straight_axis(1.0)], Some(5e-324)).is_err());
+    }
+
+    #[test]
+    fn a_break_belongs_to_the_interval_that_begins_there() {
+        let breaks = [0.0, 20.0, 40.0, 50.0];
+        for (station, interval) in [(-1.0, 0), (0.0, 0), (19.99, 0), (20.0, 1), (40.0, 2), (50.0, 2), (51.0, 2)] {
+            assert_eq!(interval_of(&breaks, station), interval, "{station}");
+        }
+    }
+
+    #[test]
+    fn directions_at_vertices_are_means() {
+        let square = closed_axis(&[(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]);
+        let diagonal = DVec2::splat(0.5f64.sqrt());
+        let (at, direction) = place(&square, 10.0).unwrap();
+        assert_eq!(at, DVec2::new(10.0, 0.0));
+        assert!(direction.distance(diagonal) < 1e-15);
+        // Both ends of a ring are one place.
+        for station in [0.0, 40.0] {
+            let (at, direction) = place(&square, station).unwrap();
+            assert_eq!(at, DVec2::ZERO);
+            assert!(direction.distance(DVec2::new(diagonal.x, -diagonal.y)) < 1e-15, "{station} {direction}");
+        }
+        assert_eq!(place(&square, 15.0), Some((DVec2::new(10.0, 5.0), DVec2::Y)));
+        let back = Axis { line: vec![(DVec2::ZERO, 0.0), (DVec2::X, 1.0), (DVec2::ZERO, 2.0)], length: 2.0, ..square };
+        assert_eq!(place(&back, 1.0).unwrap().1.abs(), DVec2::X);
+        assert_eq!(place(&Axis { line: vec![], ..back }, 1.0), None);
+    }
+}

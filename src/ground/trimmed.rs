@@ -1,0 +1,195 @@
+//! The design cut off at the ground: whole triangles stay, the others keep their part in the works.
+
+use super::cell::{Corner, Label, Side, cell};
+use super::nodes::Nodes;
+use super::patch::{NONE, Patch};
+use super::shape::Shape;
+use super::works::{Border, Works, clip};
+use crate::mesh::polygon;
+use crate::mesh::region::RegionError;
+use crate::model::Part;
+use glam::DVec2;
+use rustc_hash::FxHashMap;
+
+/// Triangles of the design after cutting, in numbers of [`Nodes`].
+#[derive(Default)]
+pub(crate) struct Trimmed {
+    pub(crate) triangles: Vec<[u32; 3]>,
+    /// The triangle of the design each comes from.
+    pub(crate) from: Vec<u32>,
+    /// Pieces of edges of the design, lower vertex first, by the edge they are part of.
+    pub(crate) pieces: FxHashMap<[u32; 2], Vec<[u32; 2]>>,
+}
+
+/// Numbers for the corners of pieces: those of vertices, and passing ones for places on edges that are no vertices.
+pub(crate) struct Passing<'a> {
+    nodes: &'a Nodes,
+    first: u32,
+    of: FxHashMap<Label, u32>,
+}
+
+impl<'a> Passing<'a> {
+    pub(crate) fn new(nodes: &'a Nodes) -> Self {
+        Self { nodes, first: nodes.places.len() as u32, of: FxHashMap::default() }
+    }
+
+    pub(crate) fn id(&mut self, corner: &Corner) -> u32 {
+        if let Some(id) = self.nodes.meeting(corner.label) {
+            return id;
+        }
+        if corner.vertex != NONE {
+            return self.nodes.design(corner.vertex);
+        }
+        let next = self.first + self.of.len() as u32;
+        *self.of.entry(corner.label).or_insert(next)
+    }
+
+    pub(crate) fn is_vertex(&self, id: u32) -> bool {
+        id < self.first
+    }
+}
+
+impl Trimmed {
+    /// Cuts the design. `whole`: nothing is cut off.
+    ///
+    /// # Errors
+    /// [`RegionError`] if a piece cannot be triangulated.
+    pub(crate) fn new(shape: &Shape, patch: &Patch, works: &Works, nodes: &Nodes, whole: bool) -> Result<Self, RegionError> {
+        let mut trimmed = Self::default();
+        let mut cells: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
+        for &(a, b) in &works.cells {
+            if works.mixed[a as usize] && cut_off(shape.parts[a as usize], whole) {
+                cells.entry(a).or_default().push(b);
+            }
+        }
+        let mut rims: FxHashMap<u32, Vec<Border>> = FxHashMap::default();
+        for border in works.borders.iter().filter(|border| border.side.design.is_none()) {
+            rims.entry(border.a).or_default().push(*border);
+        }
+        for a in 0..shape.triangles.len() as u32 {
+            let part = shape.parts[a as usize];
+            if cut_off(part, whole) && !works.seen[a as usize] {
+                continue;
+            }
+            let edges = match cells.get(&a) {
+                Some(over) => {
+                    let rims = rims.get(&a).map_or(&[][..], |list| list);
+                    Some(trimmed.piece(shape, patch, nodes, a, over, rims)?)
+                }
+                None => trimmed.with_points(shape, works, nodes, a),
+            };
+            match edges {
+                None => trimmed.push(shape.triangles[a as usize].map(|v| nodes.design(v)), a),
+                Some(edges) => {
+                    let found = polygon::fill(&nodes.places, &edges, |v| (v as usize) < nodes.places.len())?;
+                    found.into_iter().for_each(|t| trimmed.push(t, a));
+                }
+            }
+        }
+        for list in trimmed.pieces.values_mut() {
+            list.sort_unstable();
+            list.dedup();
+        }
+        Ok(trimmed)
+    }
+
+    fn push(&mut self, t: [u32; 3], a: u32) {
+        if t[0] != t[1] && t[1] != t[2] && t[2] != t[0] {
+            self.triangles.push(t);
+            self.from.push(a);
+        }
+    }
+
+    /// Edges of the part of triangle `a` in the works.
+    fn piece(
+        &mut self,
+        shape: &Shape,
+        patch: &Patch,
+        nodes: &Nodes,
+        a: u32,
+        over: &[u32],
+        rims: &[Border],
+    ) -> Result<Vec<[u32; 2]>, RegionError> {
+        let sense = if shape.parts[a as usize] == Part::CutSlope { -1.0 } else { 1.0 };
+        let mut passing = Passing::new(nodes);
+        let (mut corners, mut kept) = (Vec::new(), Vec::new());
+        let mut edges = Vec::new();
+        let mut on_sides: [Vec<[u32; 2]>; 3] = Default::default();
+        for &b in over {
+            cell(shape, patch, a, b, &mut corners);
+            clip(shape, patch, (a, b), &corners, sense, &mut kept);
+            for (n, corner) in kept.iter().enumerate() {
+                let next = &kept[(n + 1) % kept.len()];
+                let edge = [passing.id(corner), passing.id(next)];
+                if let Some(i) = corner.side.design {
+                    on_sides[i as usize].push(edge);
+                    edges.push(edge);
+                } else if corner.side == Side::INSIDE {
+                    edges.push(edge);
+                }
+            }
+        }
+        for rim in rims {
+            if let (Some(from), Some(to)) = (nodes.meeting(rim.from), nodes.meeting(rim.to)) {
+                edges.push([from, to]);
+            }
+        }
+        for (i, list) in on_sides.iter().enumerate() {
+            self.take_down(shape.edge(a, i as u8), list, &passing);
+        }
+        Ok(edges)
+    }
+
+    /// Keeps which pieces of an edge of the design are in the mesh.
+    fn take_down(&mut self, edge: [u32; 2], pieces: &[[u32; 2]], passing: &Passing) {
+        let next: FxHashMap<u32, u32> = pieces.iter().filter(|e| e[0] != e[1]).map(|e| (e[0], e[1])).collect();
+        let list = self.pieces.entry(edge).or_default();
+        for e in pieces.iter().filter(|e| e[0] != e[1] && passing.is_vertex(e[0])) {
+            let mut at = e[1];
+            let mut steps = 0;
+            while !passing.is_vertex(at) && steps <= pieces.len() {
+                let Some(&to) = next.get(&at) else { break };
+                at = to;
+                steps += 1;
+            }
+            if passing.is_vertex(at) {
+                list.push([e[0].min(at), e[0].max(at)]);
+            }
+        }
+    }
+
+    /// Edges of a triangle that stays as it is but for points on its sides; `None` if it has none.
+    fn with_points(&mut self, shape: &Shape, works: &Works, nodes: &Nodes, a: u32) -> Option<Vec<[u32; 2]>> {
+        let t = shape.triangles[a as usize];
+        let lists = [0, 1, 2].map(|i| works.on_design.get(&shape.edge(a, i)).map_or(&[][..], |list| list));
+        if lists.iter().all(|list| list.is_empty()) {
+            return None;
+        }
+        let mut edges = Vec::new();
+        for (i, list) in lists.iter().enumerate() {
+            let ends = [t[i], t[(i + 1) % 3]];
+            let ids = list.iter().filter_map(|&label| nodes.meeting(label));
+            let path = along(nodes, ends.map(|v| nodes.design(v)), ids);
+            let pieces: Vec<[u32; 2]> = path.windows(2).map(|w| [w[0], w[1]]).collect();
+            let known = self.pieces.entry(shape.edge(a, i as u8)).or_default();
+            known.extend(pieces.iter().map(|e| [e[0].min(e[1]), e[0].max(e[1])]));
+            edges.extend(pieces);
+        }
+        Some(edges)
+    }
+}
+
+/// Whether the ground cuts off a part.
+fn cut_off(part: Part, whole: bool) -> bool {
+    !whole && part != Part::Platform
+}
+
+/// The vertices from one end of a straight edge to the other with those of `between`, in order.
+pub(crate) fn along(nodes: &Nodes, [from, to]: [u32; 2], between: impl Iterator<Item = u32>) -> Vec<u32> {
+    let plan = |v: u32| -> DVec2 { nodes.places[v as usize].truncate() };
+    let (a, d) = (plan(from), plan(to) - plan(from));
+    let mut inner: Vec<(f64, u32)> = between.filter(|&v| v != from && v != to).map(|v| ((plan(v) - a).dot(d), v)).collect();
+    inner.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+    inner.dedup_by_key(|p| p.1);
+    std::iter::once(from).chain(inner.into_iter().map(|p| p.1)).chain([to]).collect()
+}

@@ -1,0 +1,371 @@
+//! The works: what lies between the design and the ground and is connected to the line, found cell by cell from the line on.
+
+use super::cell::{Corner, Label, Side, cell, class};
+use super::patch::{NONE, Patch};
+use super::shape::Shape;
+use crate::model::Part;
+use glam::DVec3;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// A directed piece of the boundary of the works, works on the left.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Border {
+    pub(crate) from: Label,
+    pub(crate) to: Label,
+    /// Triangle of the design.
+    pub(crate) a: u32,
+    /// Triangle of the ground.
+    pub(crate) b: u32,
+    /// What it lies on.
+    pub(crate) side: Side,
+    /// Its ends, on the design, local frame.
+    pub(crate) points: [DVec3; 2],
+    /// Greatest height between design and ground on it.
+    pub(crate) height: f64,
+}
+
+impl Border {
+    fn new((a, b): (u32, u32), from: &Corner, to: &Corner) -> Self {
+        let points = [from, to].map(|c| c.at.extend(c.z));
+        let height = from.h.abs().max(to.h.abs());
+        Self { from: from.label, to: to.label, a, b, side: from.side, points, height }
+    }
+}
+
+/// Where the works stop although the design has not met the ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum End {
+    /// At the edge of the ground.
+    Ground,
+    /// Where the slope was asked to end.
+    Slope,
+}
+
+/// A piece of an open end.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Open {
+    pub(crate) end: End,
+    /// Its ends, on the design, local frame.
+    pub(crate) points: [DVec3; 2],
+    /// Greatest height between design and ground there.
+    pub(crate) height: f64,
+}
+
+/// What a flood over the cells has found.
+pub(crate) struct Works {
+    /// Cells with a part in the works.
+    pub(crate) cells: Vec<(u32, u32)>,
+    /// Boundary through the inside of cells: design and ground meet.
+    pub(crate) daylight: Vec<Border>,
+    /// Boundary along edges of the design or of the ground. Where the design is not on the ground there, it stands in the air or
+    /// below ground: a wall.
+    pub(crate) borders: Vec<Border>,
+    /// Sides of cells that may bound the works, until their counterpart is found.
+    loose: FxHashMap<(Label, Label), Border>,
+    /// Where a platform changes from cut to fill.
+    pub(crate) zero: FxHashMap<(Label, Label), (u32, u32)>,
+    /// Points at which design and ground meet.
+    pub(crate) points: FxHashMap<Label, DVec3>,
+    /// Vertices of the design that lie on a vertex of the ground.
+    pub(crate) twins: Vec<[u32; 2]>,
+    /// Such points on edges of the design and of the ground, apart from their ends.
+    pub(crate) on_design: FxHashMap<[u32; 2], Vec<Label>>,
+    pub(crate) on_ground: FxHashMap<[u32; 2], Vec<Label>>,
+    /// Triangles of the design that are in the works but not with all their area, or with points on their sides.
+    pub(crate) mixed: Vec<bool>,
+    /// Triangles of the design with a part in the works.
+    pub(crate) seen: Vec<bool>,
+    /// Ends that did not meet the ground.
+    pub(crate) open: Vec<Open>,
+}
+
+/// What takes the pieces of the works, one by one: a cell's part in the works, counter-clockwise, with its triangle of the design.
+pub(crate) trait Sink {
+    fn take(&mut self, a: u32, corners: &[Corner]);
+}
+
+/// Floods the works of all parts from the line on.
+pub(crate) struct Flood<'a, S> {
+    shape: &'a Shape,
+    patch: &'a Patch,
+    /// Platform and slopes alike count with both signs and whatever their height.
+    whole: bool,
+    sink: &'a mut S,
+    works: Works,
+    visited: FxHashSet<(u32, u32)>,
+    pending: Vec<(u32, u32)>,
+    corners: Vec<Corner>,
+    kept: Vec<Corner>,
+}
+
+impl<'a, S: Sink> Flood<'a, S> {
+    /// Finds the works. With `whole`, everything of the design counts, above the ground or below it.
+    pub(crate) fn run(shape: &'a Shape, patch: &'a Patch, whole: bool, sink: &'a mut S) -> Works {
+        let works = Works {
+            cells: Vec::new(),
+            daylight: Vec::new(),
+            borders: Vec::new(),
+            loose: FxHashMap::default(),
+            zero: FxHashMap::default(),
+            points: FxHashMap::default(),
+            twins: Vec::new(),
+            on_design: FxHashMap::default(),
+            on_ground: FxHashMap::default(),
+            mixed: vec![false; shape.triangles.len()],
+            seen: vec![false; shape.triangles.len()],
+            open: Vec::new(),
+        };
+        let mut flood = Self {
+            shape,
+            patch,
+            whole,
+            sink,
+            works,
+            visited: FxHashSet::default(),
+            pending: Vec::new(),
+            corners: Vec::new(),
+            kept: Vec::new(),
+        };
+        flood.seed();
+        while let Some((a, b)) = flood.pending.pop() {
+            flood.visit(a, b);
+        }
+        let mut works = flood.works;
+        works.borders.extend(works.loose.values().copied());
+        works.borders.sort_unstable_by_key(|border| (border.from, border.to));
+        works.loose = FxHashMap::default();
+        works
+    }
+
+    fn push(&mut self, a: u32, b: u32) {
+        if self.visited.insert((a, b)) {
+            self.pending.push((a, b));
+        }
+    }
+
+    /// Starts at all cells along the line.
+    fn seed(&mut self) {
+        let mut near = Vec::new();
+        for a in 0..self.shape.triangles.len() as u32 {
+            let plan = self.shape.plan(a);
+            for i in 0..3_u8 {
+                if !self.shape.hinge.contains(&self.shape.edge(a, i)) {
+                    continue;
+                }
+                near.clear();
+                self.patch.near(plan[i as usize], plan[(i as usize + 1) % 3], |b| near.push(b));
+                near.sort_unstable();
+                near.dedup();
+                for &b in &near {
+                    cell(self.shape, self.patch, a, b, &mut self.corners);
+                    if self.corners.iter().any(|c| c.side.design == Some(i)) {
+                        self.push(a, b);
+                    }
+                }
+            }
+        }
+    }
+
+    fn visit(&mut self, a: u32, b: u32) {
+        let mut corners = std::mem::take(&mut self.corners);
+        cell(self.shape, self.patch, a, b, &mut corners);
+        if !corners.is_empty() {
+            match self.shape.parts[a as usize] {
+                Part::CutSlope if !self.whole => self.slope(a, b, &corners, -1.0),
+                Part::FillSlope if !self.whole => self.slope(a, b, &corners, 1.0),
+                _ => self.flat(a, b, &corners),
+            }
+        }
+        self.corners = corners;
+    }
+
+    /// A cell of a slope: its part above the ground (`sense` 1) or below it (−1).
+    fn slope(&mut self, a: u32, b: u32, corners: &[Corner], sense: f64) {
+        let signs = |c: &Corner| class(sense * c.h);
+        if corners.iter().any(|c| signs(c) <= 0) {
+            self.works.mixed[a as usize] = true;
+        }
+        let mut kept = std::mem::take(&mut self.kept);
+        clip(self.shape, self.patch, (a, b), corners, sense, &mut kept);
+        if !kept.is_empty() {
+            self.works.cells.push((a, b));
+            self.works.seen[a as usize] = true;
+            self.sink.take(a, &kept);
+            self.go_on(a, b, &kept, sense);
+        }
+        self.kept = kept;
+    }
+
+    /// Takes down what bounds the piece `kept` of the cell, and goes on to the neighbours across its sides.
+    fn go_on(&mut self, a: u32, b: u32, kept: &[Corner], sense: f64) {
+        for (n, corner) in kept.iter().enumerate() {
+            let next = &kept[(n + 1) % kept.len()];
+            let flat = [corner, next].map(|c| class(sense * c.h) <= 0);
+            if flat[0] {
+                self.note(a, b, kept, n);
+            }
+            let border = Border::new((a, b), corner, next);
+            if corner.side == Side::INSIDE {
+                self.works.daylight.push(border);
+            } else if flat == [true, true] {
+                self.loose(border);
+            } else {
+                self.cross(&border, [corner, next]);
+            }
+        }
+    }
+
+    /// Goes on across a side of a cell that has works on it.
+    fn cross(&mut self, border: &Border, ends: [&Corner; 2]) {
+        let (a, b, side) = (border.a, border.b, border.side);
+        let across = |neighbours: [u32; 3], side: Option<u8>, own: u32| side.map_or(own, |i| neighbours[i as usize]);
+        let next_a = across(self.shape.neighbours[a as usize], side.design, a);
+        let next_b = across(self.patch.neighbours[b as usize], side.ground, b);
+        if next_a == NONE {
+            let edge = side.design.map(|i| self.shape.edge(a, i));
+            if edge.is_some_and(|edge| self.shape.hinge.contains(&edge)) || self.whole {
+                self.loose(*border);
+            } else {
+                self.open(End::Slope, ends);
+            }
+            self.works.mixed[a as usize] |= next_b == NONE;
+        } else if next_b == NONE {
+            self.works.mixed[a as usize] = true;
+            self.open(End::Ground, ends);
+        } else {
+            self.push(next_a, next_b);
+        }
+    }
+
+    fn open(&mut self, end: End, ends: [&Corner; 2]) {
+        let points = ends.map(|c| c.at.extend(c.z));
+        self.works.open.push(Open { end, points, height: ends[0].h.abs().max(ends[1].h.abs()) });
+    }
+
+    /// Two loose pieces that run against each other are inside the works.
+    fn loose(&mut self, border: Border) {
+        if self.works.loose.remove(&(border.to, border.from)).is_none() {
+            self.works.loose.insert((border.from, border.to), border);
+        }
+    }
+
+    /// Takes down the point of corner `n` of a piece, where design and ground meet, and the edges it lies on.
+    fn note(&mut self, a: u32, b: u32, kept: &[Corner], n: usize) {
+        let corner = &kept[n];
+        self.works.points.entry(corner.label).or_insert_with(|| corner.at.extend(corner.z));
+        if let (Label::Ground(v), true) = (corner.label, corner.vertex != NONE) {
+            self.works.twins.push([corner.vertex, v]);
+        }
+        for side in [corner.side, kept[(n + kept.len() - 1) % kept.len()].side] {
+            if let Some(i) = side.design {
+                remember(&mut self.works.on_design, self.shape.edge(a, i), corner.label);
+            }
+            if let Some(j) = side.ground {
+                remember(&mut self.works.on_ground, self.patch.edge(b, j), corner.label);
+            }
+        }
+    }
+
+    /// A cell that counts whatever its height: of the platform.
+    fn flat(&mut self, a: u32, b: u32, corners: &[Corner]) {
+        self.works.cells.push((a, b));
+        self.works.seen[a as usize] = true;
+        self.sink.take(a, corners);
+        let mut split = std::mem::take(&mut self.kept);
+        split_sides(self.shape, self.patch, (a, b), corners, &mut split);
+        for (n, corner) in split.iter().enumerate() {
+            let next = &split[(n + 1) % split.len()];
+            let border = Border::new((a, b), corner, next);
+            let on_line = |side: Side| side.design.is_some_and(|i| self.shape.neighbours[a as usize][i as usize] == NONE);
+            if class(corner.h) == 0 && (on_line(corner.side) || on_line(split[(n + split.len() - 1) % split.len()].side)) {
+                self.note(a, b, &split, n);
+            }
+            self.cross(&border, [corner, next]);
+        }
+        self.zero_line(a, b, &split);
+        self.kept = split;
+    }
+
+    /// Takes down where a cell of a platform changes from cut to fill: through its inside, or along a side (then told by the
+    /// cell that is filled, unless its neighbour is as well).
+    fn zero_line(&mut self, a: u32, b: u32, split: &[Corner]) {
+        let count = split.len();
+        let zero = |n: usize| class(split[n % count].h) == 0;
+        let filled = |n: usize| class(split[n % count].h) > 0;
+        for n in (0..count).filter(|&n| zero(n)) {
+            // The next zero corner, with filled ones between.
+            let Some(m) = (n + 1..n + count).find(|&m| !filled(m)) else { continue };
+            if !zero(m) || m == n + 1 && !(0..count).any(filled) {
+                continue;
+            }
+            let (p, q) = (&split[n], &split[m % count]);
+            let (p, q) = if m == n + 1 { (p, q) } else { (q, p) };
+            let along = m == n + 1 || (m + 1) % count == n;
+            if along || (0..count).any(|i| class(split[i].h) < 0) {
+                for c in [p, q] {
+                    self.works.points.entry(c.label).or_insert_with(|| c.at.extend(c.z));
+                }
+                if self.works.zero.remove(&(q.label, p.label)).is_none() {
+                    self.works.zero.insert((p.label, q.label), (a, b));
+                }
+            }
+        }
+    }
+}
+
+fn remember(edges: &mut FxHashMap<[u32; 2], Vec<Label>>, edge: [u32; 2], label: Label) {
+    let list = edges.entry(edge).or_default();
+    if !list.contains(&label) {
+        list.push(label);
+    }
+}
+
+/// The part of a cell above the ground (`sense` 1) or below it (−1); empty unless a corner is.
+pub(crate) fn clip(shape: &Shape, patch: &Patch, ab: (u32, u32), corners: &[Corner], sense: f64, kept: &mut Vec<Corner>) {
+    kept.clear();
+    let sign = |c: &Corner| class(sense * c.h);
+    if !corners.iter().any(|c| sign(c) > 0) {
+        return;
+    }
+    for (n, corner) in corners.iter().enumerate() {
+        let next = &corners[(n + 1) % corners.len()];
+        match (sign(corner), sign(next)) {
+            (0.., 0..) => kept.push(*corner),
+            (0, _) => kept.push(Corner { side: Side::INSIDE, ..*corner }),
+            (1.., _) => {
+                kept.push(*corner);
+                kept.push(Corner { side: Side::INSIDE, ..meeting(shape, patch, ab, corner, next) });
+            }
+            (_, 1..) => kept.push(Corner { side: corner.side, ..meeting(shape, patch, ab, corner, next) }),
+            _ => {}
+        }
+    }
+}
+
+/// The cell with a corner wherever a side meets the ground.
+pub(crate) fn split_sides(shape: &Shape, patch: &Patch, ab: (u32, u32), corners: &[Corner], out: &mut Vec<Corner>) {
+    out.clear();
+    for (n, corner) in corners.iter().enumerate() {
+        let next = &corners[(n + 1) % corners.len()];
+        out.push(*corner);
+        if class(corner.h) * class(next.h) < 0 {
+            out.push(Corner { side: corner.side, ..meeting(shape, patch, ab, corner, next) });
+        }
+    }
+}
+
+/// Where the side from `p` to `q` meets the ground: the same from every cell around.
+fn meeting(shape: &Shape, patch: &Patch, (a, b): (u32, u32), p: &Corner, q: &Corner) -> Corner {
+    let label = match (p.side.design, p.side.ground) {
+        (Some(i), Some(j)) => Label::EdgesMeet(shape.edge(a, i), patch.edge(b, j)),
+        (Some(i), None) => Label::DesignMeets(shape.edge(a, i), b),
+        (None, j) => Label::GroundMeets(patch.edge(b, j.unwrap_or(0)), a),
+    };
+    let (first, second) = if p.label <= q.label { (p, q) } else { (q, p) };
+    let t = first.h / (first.h - second.h);
+    let at = first.at.lerp(second.at, t);
+    // On an edge of the ground alone, the height of that edge.
+    let lift = if p.side.design.is_some() { 0.0 } else { 1.0 };
+    let height = |c: &Corner| c.z - lift * c.h;
+    Corner { label, at, z: height(first) + t * (height(second) - height(first)), h: 0.0, vertex: NONE, side: Side::INSIDE }
+}

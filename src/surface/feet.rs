@@ -1,0 +1,77 @@
+//! Foot points: which place of the line every slope triangle belongs to.
+
+use crate::model::{Line, Sheet};
+use crate::slope::facet::{Facet, Kind};
+use crate::slope::network::{Given, Network};
+use glam::DVec2;
+
+/// The foot points of one facet, as stations: a linear function of the plan position on a strip, one station on a cone.
+///
+/// Off the creases every point of the surface has exactly one foot (design note "each point has one foot"), so volumes can be
+/// given to stations exactly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foot {
+    /// Chain of the line.
+    pub chain: u32,
+    /// A foot point in plan, local frame.
+    pub origin: DVec2,
+    /// Its station.
+    pub station: f64,
+    /// Change of the station per length unit in plan; nought on cones.
+    pub gradient: DVec2,
+    /// Stations of the two ends of the strip, ascending.
+    pub range: [f64; 2],
+    /// Whether the facet is a cone sector.
+    pub on_cone: bool,
+}
+
+impl Foot {
+    /// Station of the foot of the plan point `x`.
+    pub fn station(&self, x: DVec2) -> f64 {
+        (self.station + self.gradient.dot(x - self.origin)).clamp(self.range[0], self.range[1])
+    }
+}
+
+/// Stations of the vertices of each chain.
+pub(super) struct Stations(Vec<Vec<f64>>);
+
+impl Stations {
+    pub(super) fn new(line: &Line) -> Self {
+        Self(line.chains.iter().map(|chain| chain.stations()).collect())
+    }
+
+    fn at(&self, given: Given) -> f64 {
+        let stations = &self.0[given.chain as usize];
+        let from = stations[given.vertex as usize];
+        let to = stations.get(given.vertex as usize + 1).copied().unwrap_or(from);
+        from + given.part * (to - from)
+    }
+}
+
+/// The foot points of `facet`; `leaving` is a half-edge that leaves the node of a sector.
+pub(super) fn foot(facet: &Facet, network: &Network, stations: &Stations, leaving: Option<u32>) -> Foot {
+    let (half_edge, on_cone) = match facet.kind {
+        Kind::Strip(h) => (h, false),
+        Kind::Sector(_) => (leaving.unwrap_or(0), true),
+    };
+    let edge = &network.edges[(half_edge / 2) as usize];
+    let [first, second] = if half_edge & 1 == 0 { [edge.given[0], edge.given[1]] } else { [edge.given[1], edge.given[0]] };
+    let from = stations.at(first);
+    let to = if on_cone { from } else { stations.at(second) };
+    let gradient = if on_cone || facet.tau_max <= 0.0 {
+        DVec2::ZERO
+    } else {
+        // τ(w) = u·w − r u·d with r = u⊥·w / u⊥·d, see `Facet::parameters`.
+        let across = facet.u.perp();
+        (facet.u - across * (facet.u.dot(facet.d) / across.dot(facet.d))) * ((to - from) / facet.tau_max)
+    };
+    Foot { chain: first.chain, origin: facet.origin, station: from, gradient, range: [from.min(to), from.max(to)], on_cone }
+}
+
+/// The kind of crease of a sheet: the falling one is the greatest of its facets, where two meet it is lower than around.
+pub(super) fn crease(sheet: Sheet) -> super::Mark {
+    match sheet {
+        Sheet::Falling => super::Mark::Valley,
+        Sheet::Rising => super::Mark::Ridge,
+    }
+}
