@@ -5,12 +5,16 @@ pub mod build;
 pub mod design;
 pub mod error;
 mod figures;
+mod ground;
+mod on_ground;
 pub mod sample;
 mod watch;
 
 pub use build::{BuildJob, Built, build};
 pub use design::{DesignError, MOST_LEVELS, Wishes};
 pub use error::{BuriedError, Error};
+pub use ground::read_ground;
+pub use on_ground::GroundInput;
 pub use sample::{Area, Lattice, MOST_NODES, SampleJob, Sampled, Where, lattice, sample};
 pub use watch::{Observer, WRITING};
 

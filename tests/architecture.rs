@@ -10,14 +10,15 @@ const ORDER: [&str; 15] = [
 ];
 
 /// Packages that stay at the edge, with the modules that may name them.
-const EDGE: [(&str, &[&str]); 8] = [
+const EDGE: [(&str, &[&str]); 9] = [
     ("anyhow", &["cli", "main"]),
     ("clap", &["cli", "main"]),
     ("indicatif", &["cli"]),
     ("ctrlc", &["cli"]),
     ("geojson", &["read", "write"]),
     ("csv", &["read"]),
-    ("spade", &["mesh"]),
+    ("spade", &["mesh", "terrain"]),
+    ("tobj", &["read"]),
     ("tempfile", &["write"]),
 ];
 

@@ -61,6 +61,26 @@ pub(super) struct BuildArgs {
     /// Take volumes against the plane at elevation Z [default: where the slopes end]
     #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = help::SURFACE)]
     pub(super) reference: Option<String>,
+    /// Existing ground: .obj, .ply, .csv, .xyz, .txt or .asc; slopes then end where they meet it
+    #[arg(long, value_name = "FILE", help_heading = help::INPUT)]
+    pub(super) terrain: Option<PathBuf>,
+    /// Accept slopes that end without meeting the ground
+    #[arg(long, help_heading = help::SURFACE)]
+    pub(super) allow_open: bool,
+    /// Write the whole ground with the works in it: .obj or .ply
+    #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
+    pub(super) finished: Vec<OsString>,
+    /// Cut and fill for every D along the line, with cross-sections and the running net
+    ///
+    /// Needs existing ground.
+    #[arg(long, value_name = "D", allow_negative_numbers = true, help_heading = help::SURFACE)]
+    pub(super) stations: Option<String>,
+    /// Gain in volume of soil when it is dug: 25% or 0.25
+    #[arg(long, value_name = "P", allow_hyphen_values = true, help_heading = help::SURFACE)]
+    pub(super) swell: Option<String>,
+    /// Loss in volume of soil when it is compacted, against its volume in the ground: 10% or 0.1
+    #[arg(long, value_name = "P", allow_hyphen_values = true, help_heading = help::SURFACE)]
+    pub(super) shrink: Option<String>,
     /// Refuse lines of which a part lies buried under the slope of another part
     #[arg(long, help_heading = help::SURFACE)]
     pub(super) strict: bool,
@@ -147,9 +167,10 @@ pub(super) struct SlopeArgs {
     /// Slope of surfaces that fall from the line, instead of --slope
     #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = help::SURFACE)]
     pub(super) fill_slope: Option<String>,
-    /// Whether the surface falls from the line (fill) or rises (cut)
-    #[arg(long, value_enum, default_value = "down", help_heading = help::SURFACE)]
-    pub(super) direction: DirectionArg,
+    /// Whether the surface falls from the line (fill), rises (cut), or does what the ground asks for [default: auto with
+    /// --terrain, else down]
+    #[arg(long, value_enum, help_heading = help::SURFACE)]
+    pub(super) direction: Option<DirectionArg>,
 }
 
 #[derive(Debug, Args)]
@@ -178,6 +199,7 @@ pub(super) enum SideArg {
 pub(super) enum DirectionArg {
     Down,
     Up,
+    Auto,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -1,6 +1,7 @@
 //! What the process exits with.
 
 use super::job::UsageErrors;
+use crate::ground::GroundError;
 use crate::pipeline::Error;
 use crate::read::ReadError;
 use crate::surface::SurfaceError;
@@ -37,11 +38,13 @@ impl Code {
             Some(Error::Read(_)) => Self::Input,
             Some(Error::Write(error)) if error.is_usage() => Self::Usage,
             Some(Error::Write(_)) => Self::Output,
-            Some(Error::Surface { cause, .. }) => match cause {
+            Some(Error::Surface { cause, .. } | Error::Ground { cause: GroundError::Surface(cause), .. }) => match cause {
                 SurfaceError::Cancelled => Self::Interrupted,
                 SurfaceError::Unclosed { .. } | SurfaceError::Unsound { .. } => Self::Check,
                 _ => Self::Work,
             },
+            Some(Error::Ground { cause: GroundError::Unsound { .. } | GroundError::Cut { .. }, .. }) => Self::Check,
+            Some(Error::Ground { .. }) => Self::Work,
             Some(Error::Invalid(_) | Error::Design(_) | Error::Buried(_)) | None => Self::Work,
         }
     }

@@ -2,8 +2,9 @@
 
 use super::args::{BuildArgs, DirectionArg, FormatArg, InputArgs, Running, SampleArgs, SideArg, SlopeArgs};
 use super::number::{self, Rule};
-use crate::model::{Extent, Sheet, Side, Slope};
-use crate::pipeline::{Area, BuildJob, Lattice, LineInput, SampleJob, Where, Wishes};
+use crate::model::{Bulking, Extent, Sheet, Side, Slope};
+use crate::pipeline::{Area, BuildJob, GroundInput, Lattice, LineInput, SampleJob, Where, Wishes};
+use crate::read::terrain::TerrainOptions;
 use crate::read::{ColumnOrder, InputFormat, ReadOptions};
 use crate::report::ReportFormat;
 use crate::write::{MeshFormat, Target, UnknownFormat};
@@ -66,22 +67,37 @@ impl Checks {
         }))
     }
 
-    /// The slope and its sheet.
-    fn slopes(&mut self, args: &SlopeArgs) -> Option<(Slope, Sheet)> {
+    /// The slopes, each with its sheet: one, or with existing ground both.
+    fn slopes(&mut self, args: &SlopeArgs, on_ground: bool) -> Vec<(Slope, Sheet)> {
         let slope = self.slope("--slope", args.slope.as_ref());
         let cut = self.slope("--cut-slope", args.cut_slope.as_ref());
         let fill = self.slope("--fill-slope", args.fill_slope.as_ref());
-        let (sheet, own, given, name, verb) = match args.direction {
-            DirectionArg::Down => (Sheet::Falling, fill, args.fill_slope.is_some(), "--fill-slope", "falls"),
-            DirectionArg::Up => (Sheet::Rising, cut, args.cut_slope.is_some(), "--cut-slope", "rises"),
-        };
-        if !given && args.slope.is_none() {
-            self.0.push(format!(
-                "no slope was given for a surface that {verb}\n  --> --slope\n   \
-                 = help: give `--slope` or `{name}`, such as 1:1.5, 2H:1V, 1in2, 50% or 26.57deg"
-            ));
+        let direction = args.direction.unwrap_or(if on_ground { DirectionArg::Auto } else { DirectionArg::Down });
+        if direction == DirectionArg::Auto && !on_ground {
+            self.0.push(
+                "the direction `auto` needs existing ground\n  --> --direction auto\n   \
+                 = help: give the ground with `--terrain`, or choose `--direction down` or `up`"
+                    .to_owned(),
+            );
         }
-        Some((own.or(slope)?, sheet))
+        let falling = (Sheet::Falling, fill, args.fill_slope.is_some(), "--fill-slope", "falls");
+        let rising = (Sheet::Rising, cut, args.cut_slope.is_some(), "--cut-slope", "rises");
+        let wanted = match direction {
+            DirectionArg::Down => vec![falling],
+            DirectionArg::Up => vec![rising],
+            DirectionArg::Auto => vec![falling, rising],
+        };
+        let mut slopes = Vec::new();
+        for (sheet, own, given, name, verb) in wanted {
+            if !given && args.slope.is_none() {
+                self.0.push(format!(
+                    "no slope was given for a surface that {verb}\n  --> --slope\n   \
+                     = help: give `--slope` or `{name}`, such as 1:1.5, 2H:1V, 1in2, 50% or 26.57deg"
+                ));
+            }
+            slopes.extend(own.or(slope).map(|slope| (slope, sheet)));
+        }
+        slopes
     }
 
     fn input(&mut self, args: &InputArgs) -> LineInput {
@@ -91,6 +107,28 @@ impl Checks {
         });
         let csv_order = self.order("--csv-order", args.csv_order.as_ref());
         LineInput { path: args.input.clone(), options: ReadOptions { format, csv_order }, closed: args.closed }
+    }
+
+    /// How soil changes its volume; what is not given is nought.
+    fn bulking(&mut self, args: &BuildArgs) -> Option<Bulking> {
+        let mut share = |option, text: Option<&String>, limits| {
+            text.map_or(Some(0.0), |text| self.take(number::share(option, text, &limits)))
+        };
+        let swell = share("--swell", args.swell.as_ref(), Bulking::SWELL);
+        let shrink = share("--shrink", args.shrink.as_ref(), Bulking::SHRINK);
+        let given = args.swell.is_some() || args.shrink.is_some();
+        swell.zip(shrink).filter(|_| given).and_then(|(swell, shrink)| Bulking::new(swell, shrink))
+    }
+
+    /// Refuses options that mean nothing without existing ground.
+    fn needs_ground(&mut self, options: &[(&str, Option<&String>)]) {
+        for (option, text) in options {
+            if let Some(text) = text {
+                self.0.push(format!(
+                    "`{option}` needs existing ground\n  --> {option} {text}\n   = help: give the ground with `--terrain`"
+                ));
+            }
+        }
     }
 
     fn finish<T>(self, job: Option<T>) -> Result<T, UsageErrors> {
@@ -108,7 +146,7 @@ impl Checks {
 pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     let mut checks = Checks::default();
     let input = checks.input(&args.input);
-    let slope = checks.slopes(&args.slope);
+    let slopes = checks.slopes(&args.slope, args.terrain.is_some());
     let extent = [
         checks.number("--to-elevation", args.to_elevation.as_ref(), Rule::Coordinate).map(Extent::Elevation),
         checks.number("--height", args.height.as_ref(), Rule::AtLeast(LEAST_LENGTH)).map(Extent::Height),
@@ -117,6 +155,23 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     let interval = checks.number("--interval", args.interval.as_ref(), Rule::Positive);
     let tolerance = checks.number("--tolerance", Some(&args.tolerance), Rule::AtLeast(LEAST_LENGTH));
     let reference = checks.number("--reference", args.reference.as_ref(), Rule::Coordinate);
+    let stations = checks.number("--stations", args.stations.as_ref(), Rule::AtLeast(LEAST_LENGTH));
+    let bulking = checks.bulking(args);
+    if args.terrain.is_none() {
+        let finished = args.finished.first().map(|name| name.to_string_lossy().into_owned());
+        checks.needs_ground(&[
+            ("--stations", args.stations.as_ref()),
+            ("--swell", args.swell.as_ref()),
+            ("--shrink", args.shrink.as_ref()),
+            ("--finished", finished.as_ref()),
+            ("--allow-open", args.allow_open.then(String::new).as_ref()),
+        ]);
+    } else if let Some(z) = &args.reference {
+        checks.0.push(format!(
+            "volumes are taken against the existing ground\n  --> --reference {z}\n   \
+             = help: leave out `--reference`, or `--terrain`"
+        ));
+    }
     let side = args.side.map(|side| match side {
         SideArg::Left => Side::Left,
         SideArg::Right => Side::Right,
@@ -131,6 +186,11 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         let format = checks.format(MeshFormat::of(&target));
         meshes.extend(format.map(|format| (target, format)));
     }
+    let mut finished = Vec::new();
+    for target in targets(&args.finished) {
+        let format = checks.format(MeshFormat::of(&target));
+        finished.extend(format.map(|format| (target, format)));
+    }
     let lines = targets(&args.lines);
     for target in &lines {
         checks.format(ending(target, "line-work file", &["geojson", "json"], "`.geojson` or `.json`"));
@@ -140,17 +200,33 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         let format = checks.format(ReportFormat::of(&target));
         reports.extend(format.map(|format| (target, format)));
     }
-    let used = meshes.iter().map(|(t, _)| t).chain(&lines).chain(reports.iter().map(|(t, _)| t)).any(|t| *t == Target::Stdout);
+    let used = meshes
+        .iter()
+        .chain(&finished)
+        .map(|(t, _)| t)
+        .chain(&lines)
+        .chain(reports.iter().map(|(t, _)| t))
+        .any(|t| *t == Target::Stdout);
     if !used && !args.running.quiet {
         reports.push((Target::Stdout, ReportFormat::Text));
     }
 
-    let job = slope.zip(tolerance).map(|((slope, sheet), tolerance)| BuildJob {
+    let extent = extent.into_iter().flatten().next();
+    let ground = args.terrain.as_ref().map(|path| GroundInput {
+        path: path.clone(),
+        options: TerrainOptions::default(),
+        allow_open: args.allow_open,
+    });
+    let job = tolerance.filter(|_| !slopes.is_empty()).map(|tolerance| BuildJob {
         input,
-        wishes: Wishes { slope, sheet, side, extent: extent.into_iter().flatten().next(), interval, tolerance },
+        wishes: slopes.into_iter().map(|(slope, sheet)| Wishes { slope, sheet, side, extent, interval, tolerance }).collect(),
+        ground,
         reference,
+        stations,
+        bulking,
         strict: args.strict,
         meshes,
+        finished,
         lines,
         reports,
     });
@@ -164,7 +240,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
 pub(super) fn sample_job(args: &SampleArgs) -> Result<SampleJob, UsageErrors> {
     let mut checks = Checks::default();
     let input = checks.input(&args.input);
-    let slope = checks.slopes(&args.slope);
+    let slope = checks.slopes(&args.slope, false).into_iter().next();
     let place = match (&args.at, &args.raster) {
         (Some(path), _) => {
             let csv_order = checks.order("--at-order", args.at_order.as_ref());

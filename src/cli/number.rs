@@ -1,6 +1,8 @@
 //! Numbers typed in as options.
 
+use crate::model::Share;
 use crate::validate::INPUT_LIMIT;
+use std::ops::RangeInclusive;
 
 /// What a number must be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +38,19 @@ pub(super) fn read(option: &str, text: &str, rule: Rule) -> Result<f64, String> 
     }
 }
 
+/// Reads a share such as `25%` for `option`, within limits.
+///
+/// # Errors
+/// As [`read`].
+pub(super) fn share(option: &str, text: &str, limits: &RangeInclusive<f64>) -> Result<f64, String> {
+    let Share(value) = text.parse::<Share>().map_err(|e| format!("{}\n  --> {option} {text}\n   = help: {}", e.what, e.help))?;
+    if limits.contains(&value) {
+        return Ok(value);
+    }
+    let (least, most) = (100.0 * limits.start(), 100.0 * limits.end());
+    Err(format!("`{text}` is out of range\n  --> {option} {text}\n   = help: give {least}% to {most}%"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -61,6 +76,22 @@ mod tests {
         ] {
             let error = read("--x", text, rule).unwrap_err();
             assert!(error.starts_with(&format!("`{text}` {what}")), "{error}");
+        }
+    }
+    #[test]
+    fn shares() {
+        let limits = -1.0..=0.9;
+        assert_eq!(share("--shrink", "10%", &limits), Ok(0.1));
+        assert_eq!(share("--shrink", "-0.3", &limits), Ok(-0.3));
+        for (text, expected) in [
+            ("95%", "`95%` is out of range\n  --> --shrink 95%\n   = help: give -100% to 90%"),
+            (
+                "0.9",
+                "`0.9` can be read in two ways\n  --> --shrink 0.9\n   = help: write `10%` if 0.9 is a factor, `90%` if it is a share",
+            ),
+            ("x", "`x` is not a share\n  --> --shrink x\n   = help: write `25%` or `0.25`"),
+        ] {
+            assert_eq!(share("--shrink", text, &limits), Err(expected.to_owned()));
         }
     }
 }

@@ -10,7 +10,7 @@ use super::stations::Stations;
 use super::tally::Tally;
 use super::trimmed::Trimmed;
 use super::works::{Flood, Sink, Works};
-use super::{Axis, Corner, GroundError, Piece, cell};
+use super::{Axis, Corner, GroundError, Piece, SectionFigures, Sections, cell};
 use crate::kernel::frame::Frame;
 use crate::kernel::sum::Sum;
 use crate::mesh::volume;
@@ -98,7 +98,7 @@ impl<'a> Site<'a> {
             watch.stage(stage);
             if watch.cancelled() { Err(SurfaceError::Cancelled) } else { Ok(()) }
         };
-        go_on("ground")?;
+        go_on("works")?;
         let whole = designs.iter().any(|d| d.side_of_rings == Side::Inside) && self.line.chains.iter().all(|c| c.closed());
         let unsound = |mesh, what: &str| GroundError::Unsound { mesh, what: what.to_owned() };
         let shape = Shape::new(&surfaces.iter().collect::<Vec<_>>(), whole)
@@ -111,7 +111,7 @@ impl<'a> Site<'a> {
         let fed = feeder.finish();
         self.check_covered(&shape, &fed, options)?;
         check_open(&shape, &works, options)?;
-        go_on("meshes")?;
+        go_on("daylight")?;
         let nodes = Nodes::new(&shape, &patch, &works);
         let trimmed = Trimmed::new(&shape, &patch, &works, &nodes, whole)
             .map_err(|cause| GroundError::Cut { what: "the design", cause })?;
@@ -124,7 +124,7 @@ impl<'a> Site<'a> {
         } else {
             None
         };
-        go_on("check")?;
+        go_on("finished ground")?;
         figures::ground(&figures::Found {
             line: self.line,
             designs: &designs,
@@ -253,6 +253,8 @@ fn check_open(shape: &Shape, works: &Works, options: &Options) -> Result<(), Gro
 pub(crate) struct Fed {
     /// Cut and fill.
     pub(crate) tallied: super::Tallied,
+    /// Cross-sections, where stations are wanted.
+    pub(crate) sections: Option<SectionFigures>,
     /// Plan area of each triangle of the design that has been fed.
     pub(crate) covered: Vec<f64>,
 }
@@ -261,17 +263,24 @@ pub(crate) struct Fed {
 struct Feeder<'a> {
     shape: &'a Shape,
     tally: Tally<'a>,
+    sections: Option<Sections<'a>>,
     covered: Vec<f64>,
     corners: Vec<Corner>,
 }
 
 impl<'a> Feeder<'a> {
     fn new(shape: &'a Shape, stations: &'a Stations) -> Self {
-        Self { shape, tally: Tally::new(stations), covered: vec![0.0; shape.triangles.len()], corners: Vec::new() }
+        Self {
+            shape,
+            tally: Tally::new(stations),
+            sections: stations.spacing().map(|_| Sections::new(stations)),
+            covered: vec![0.0; shape.triangles.len()],
+            corners: Vec::new(),
+        }
     }
 
     fn finish(self) -> Fed {
-        Fed { tallied: self.tally.finish(), covered: self.covered }
+        Fed { tallied: self.tally.finish(), sections: self.sections.map(Sections::finish), covered: self.covered }
     }
 }
 
@@ -285,7 +294,11 @@ impl Sink for Feeder<'_> {
             height: c.h,
             station: foot.map_or(0.0, |f| f.station(c.at)),
         }));
-        self.tally.add(&Piece { part: self.shape.parts[a as usize], axis: foot.map(|f| f.chain), corners: &self.corners });
+        let piece = Piece { part: self.shape.parts[a as usize], axis: foot.map(|f| f.chain), corners: &self.corners };
+        self.tally.add(&piece);
+        if let Some(sections) = &mut self.sections {
+            sections.add(&piece);
+        }
         let o = corners[0].at;
         let twice: f64 = corners[1..].windows(2).map(|w| (w[0].at - o).perp_dot(w[1].at - o)).sum();
         self.covered[a as usize] += 0.5 * twice;

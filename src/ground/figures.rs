@@ -9,7 +9,7 @@ use super::shape::Shape;
 use super::stations::Stations;
 use super::trimmed::Trimmed;
 use super::works::{Border, Works};
-use super::{Axis, GroundError, Tallied};
+use super::{Axis, GroundError, SectionFigures, Tallied};
 use crate::kernel::sum::Sum;
 use crate::mesh::check::{self, HalfEdges, Soundness};
 use crate::mesh::{polygon, volume};
@@ -54,6 +54,8 @@ pub struct Ground {
     pub complete: bool,
     /// Cut and fill.
     pub tallied: Tallied,
+    /// Cross-sections at the stations.
+    pub sections: Option<SectionFigures>,
     /// What stations are counted along, with the ends of the intervals.
     pub stations: Stations,
     /// Areas of the design.
@@ -110,6 +112,7 @@ pub(crate) fn ground(found: &Found) -> Result<Ground, GroundError> {
         daylight: daylight(found),
         complete: found.works.open.is_empty(),
         tallied: found.fed.tallied.clone(),
+        sections: found.fed.sections.clone(),
         stations: found.stations.clone(),
         areas,
         certificate,

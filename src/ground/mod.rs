@@ -2,13 +2,17 @@
 
 mod build;
 mod cell;
+pub mod end_areas;
 mod error;
 mod figures;
 mod finished;
+pub mod haul;
 mod nodes;
 mod patch;
 pub mod piece;
 mod reach;
+pub mod section_slope;
+pub mod sections;
 mod shape;
 pub mod stations;
 pub mod tally;
@@ -19,8 +23,12 @@ mod works;
 mod testing;
 
 pub use build::{Options, Site};
+pub use end_areas::{CutFill, average_end_area, prismoidal};
 pub use error::GroundError;
 pub use figures::{Daylight, Ground};
+pub use haul::{Haul, mass_haul};
 pub use piece::{Axis, Corner, Piece};
+pub use section_slope::{SectionSlope, section_slope};
+pub use sections::{Section, SectionFigures, Sectioned, Sections};
 pub use stations::{MOST_STATIONS, Stations, TooManyStations};
 pub use tally::{Amounts, Deepest, Interval, Tallied, Tally};

@@ -60,8 +60,7 @@ impl Stations {
         if let Some(spacing) = spacing {
             let length: f64 = axes.iter().map(|axis| axis.length).sum();
             let count: f64 = axes.iter().map(|axis| (axis.length / spacing).ceil()).sum();
-            // Written so that a count that is no number is refused as well.
-            if !(count <= MOST_STATIONS as f64) {
+            if count > MOST_STATIONS as f64 || count.is_nan() {
                 return Err(TooManyStations { spacing, length });
             }
         }

@@ -17,6 +17,12 @@ impl Sum {
         self.total = next;
     }
 
+    /// Adds all terms of another sum.
+    pub fn join(&mut self, other: Self) {
+        self.add(other.total);
+        self.add(other.lost);
+    }
+
     /// The sum so far.
     pub fn value(&self) -> f64 {
         self.total + self.lost

@@ -1,5 +1,6 @@
 //! What the program talks about: lines, slopes, designs, meshes. Plain data with checked constructors.
 
+pub mod bulking;
 pub mod design;
 pub mod line;
 pub mod notation;
@@ -8,6 +9,7 @@ pub mod slope;
 pub mod terrain;
 pub mod tin;
 
+pub use bulking::{Bulking, Share, ShareError};
 pub use design::{Design, Extent, Sheet, Side};
 pub use line::{Chain, Line, Place, Role};
 pub use notation::SlopeError;

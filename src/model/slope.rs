@@ -42,6 +42,11 @@ impl Slope {
         format!("1V:{n}H · {n}H:1V · {} % · {}°", rounded(self.percent(), 3), rounded(self.degrees(), 4))
     }
 
+    /// As `1V:1.5H`, rounded to four digits.
+    pub fn short(self) -> String {
+        format!("1V:{}H", rounded(self.one_in(), 4))
+    }
+
     /// As `1V:1.25H` with four digits, rounded so that what is shown is never flatter: for "this steep or steeper".
     pub fn not_flatter(self) -> String {
         /// What one division leaves of a number typed with few digits, relative.
@@ -82,7 +87,9 @@ mod tests {
             (1e-4, "1V:10000H · 10000H:1V · 0.01 % · 0.00573°"),
             (1e4, "1V:0.0001H · 0.0001H:1V · 1000000 % · 89.99°"),
         ] {
-            assert_eq!(Slope::from_ratio(ratio).unwrap().forms(), expected);
+            let slope = Slope::from_ratio(ratio).unwrap();
+            assert_eq!(slope.forms(), expected);
+            assert_eq!(slope.short(), expected.split(' ').next().unwrap());
         }
     }
 

@@ -1,24 +1,35 @@
 //! The main job: a line to a surface, its files and its report.
 
-use super::watch::{CHECKING, Observer, READING, Stopwatch, WRITING};
-use super::{BuriedError, Error, LineInput, Wishes, check_steepness, figures, read_line};
+use super::watch::{CHECKING, Observer, PREPARING, READING, READING_GROUND, Stopwatch, WRITING};
+use super::{BuriedError, Error, GroundInput, LineInput, Wishes, check_steepness, figures, on_ground, read_line};
+use crate::model::{Bulking, Line, LineFeature, Tin};
+use crate::read::Source;
 use crate::report::{Report, ReportFormat};
 use crate::surface;
 use crate::write::{Delivery, MeshFormat, Outputs, Target, WriteError, write_lines};
+use std::path::Path;
 
 /// A surface to be built, and where to put it.
 #[derive(Clone, Debug)]
 pub struct BuildJob {
     /// The line.
     pub input: LineInput,
-    /// What is wanted.
-    pub wishes: Wishes,
+    /// What is wanted; with existing ground one for each sheet, at most two. Never empty.
+    pub wishes: Vec<Wishes>,
+    /// The existing ground.
+    pub ground: Option<GroundInput>,
     /// Elevation of the plane the volumes are taken against; `None`: where the slopes end.
     pub reference: Option<f64>,
+    /// Spacing of the stations that volumes are told apart by; with existing ground only.
+    pub stations: Option<f64>,
+    /// How the soil changes its volume, if that is to be reckoned with; with existing ground only.
+    pub bulking: Option<Bulking>,
     /// Refuse lines with buried stretches.
     pub strict: bool,
     /// Where meshes go.
     pub meshes: Vec<(Target, MeshFormat)>,
+    /// Where the finished ground goes; needs existing ground.
+    pub finished: Vec<(Target, MeshFormat)>,
     /// Where line work goes.
     pub lines: Vec<Target>,
     /// Where reports go.
@@ -38,6 +49,7 @@ pub struct Built {
 #[derive(Clone, Copy)]
 enum Content {
     Mesh(MeshFormat),
+    Finished(MeshFormat),
     Lines,
     Report(ReportFormat),
 }
@@ -49,31 +61,23 @@ enum Content {
 pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     let watch = Stopwatch::new(observer);
     let (targets, contents): (Vec<Target>, Vec<Content>) = wanted(job).into_iter().unzip();
-    let mut outputs = Outputs::open(&targets, &[&job.input.path])?;
+    let ground_path = job.ground.as_ref().map(|ground| ground.path.as_path());
+    let inputs: Vec<&Path> = std::iter::once(job.input.path.as_path()).chain(ground_path).collect();
+    let mut outputs = Outputs::open(&targets, &inputs)?;
 
     let (line, source) = read_line(&job.input, &watch)?;
-    let mut chosen = Vec::new();
-    let design = job.wishes.settle(&line, &source.label, &mut chosen)?;
-    chosen.iter().for_each(|note| watch.note(note));
-    check_steepness(&line, &source, design.slope)?;
-    let surface = surface::build(&line, &design, job.reference, &watch)
-        .map_err(|cause| Error::Surface { label: source.label.clone(), cause })?;
-    surface.notes.iter().for_each(|note| watch.note(note));
-    let buried = figures::buried(&line, &surface);
-    if job.strict && !buried.is_empty() {
-        return Err(BuriedError { label: source.label, stretches: buried }.into());
-    }
-    if let Some(note) = figures::buried_note(&buried) {
-        watch.note(&note);
-    }
-    let mut report = figures::report(&line, &source, &design, &surface, &watch.notes());
+    let Product { design, finished, lines, mut report } = match &job.ground {
+        Some(ground) => on_ground::build(job, ground, &line, &source, &watch)?,
+        None => alone(job, &line, &source, &watch)?,
+    };
 
     watch.stage_of(WRITING);
     let crs = source.crs.as_deref();
     let mut put = |index: usize, report: &Report| -> Result<Delivery, WriteError> {
         outputs.write(index, |out| match contents[index] {
-            Content::Mesh(format) => format.write(out, &surface.tin),
-            Content::Lines => write_lines(out, &surface.lines, crs).map(drop),
+            Content::Mesh(format) => format.write(out, &design),
+            Content::Finished(format) => finished.as_ref().map_or(Ok(()), |tin| format.write(out, tin)),
+            Content::Lines => write_lines(out, &lines, crs).map(drop),
             Content::Report(format) => format.write(out, report),
         })
     };
@@ -89,11 +93,44 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     Ok(Built { report, written })
 }
 
+/// What is written.
+pub(super) struct Product {
+    pub(super) design: Tin,
+    pub(super) finished: Option<Tin>,
+    pub(super) lines: Vec<LineFeature>,
+    pub(super) report: Report,
+}
+
+/// Builds without existing ground.
+fn alone(job: &BuildJob, line: &Line, source: &Source, watch: &Stopwatch<'_>) -> Result<Product, Error> {
+    let mut chosen = Vec::new();
+    let Some(wishes) = job.wishes.first() else { return Err(surface_error(source, surface::SurfaceError::NoSide)) };
+    let design = wishes.settle(line, &source.label, &mut chosen)?;
+    chosen.iter().for_each(|note| watch.note(note));
+    check_steepness(line, source, design.slope)?;
+    let surface = surface::build(line, &design, job.reference, watch).map_err(|cause| surface_error(source, cause))?;
+    surface.notes.iter().for_each(|note| watch.note(note));
+    let buried = figures::buried(line, &surface);
+    if job.strict && !buried.is_empty() {
+        return Err(BuriedError { label: source.label.clone(), stretches: buried }.into());
+    }
+    if let Some(note) = figures::buried_note(&buried) {
+        watch.note(&note);
+    }
+    let report = figures::report(line, source, &design, &surface, &watch.notes());
+    Ok(Product { design: surface.tin, finished: None, lines: surface.lines, report })
+}
+
+fn surface_error(source: &Source, cause: surface::SurfaceError) -> Error {
+    Error::Surface { label: source.label.clone(), cause }
+}
+
 fn wanted(job: &BuildJob) -> Vec<(Target, Content)> {
     let meshes = job.meshes.iter().map(|(target, format)| (target.clone(), Content::Mesh(*format)));
+    let finished = job.finished.iter().map(|(target, format)| (target.clone(), Content::Finished(*format)));
     let lines = job.lines.iter().map(|target| (target.clone(), Content::Lines));
     let reports = job.reports.iter().map(|(target, format)| (target.clone(), Content::Report(*format)));
-    meshes.chain(lines).chain(reports).collect()
+    meshes.chain(finished).chain(lines).chain(reports).collect()
 }
 
 /// The order in which outputs are written. Files first, because they can still be taken back; standard output last; of each kind
@@ -109,14 +146,17 @@ fn in_order(targets: &[Target], contents: &[Content]) -> Vec<usize> {
 
 /// Writes the times into the report.
 fn stamp(report: &mut Report, watch: &Stopwatch<'_>) {
-    /// The engine's stage of areas and volumes.
-    const VOLUMES: &str = "volumes";
-    /// All but the surface itself; whatever other stages there are, are its own.
-    const AROUND: [&str; 4] = [READING, CHECKING, VOLUMES, WRITING];
+    /// The engine's stages of areas and volumes; with existing ground also of what follows from them.
+    const VOLUMES: [&str; 4] = ["volumes", "works", "daylight", "finished ground"];
+    const LINE: [&str; 2] = [READING, CHECKING];
+    const GROUND: [&str; 2] = [READING_GROUND, PREPARING];
     let timing = &mut report.timing;
-    timing.read = watch.seconds(|stage| stage == READING || stage == CHECKING);
-    timing.surface = watch.seconds(|stage| !AROUND.contains(&stage));
-    timing.volume = watch.seconds(|stage| stage == VOLUMES);
+    timing.read = watch.seconds(|stage| LINE.contains(&stage));
+    timing.terrain = report.terrain.map(|_| watch.seconds(|stage| GROUND.contains(&stage)));
+    timing.volume = watch.seconds(|stage| VOLUMES.contains(&stage));
+    // Whatever other stages there are, are those of the surface itself.
+    let around = |stage: &str| LINE.contains(&stage) || GROUND.contains(&stage) || VOLUMES.contains(&stage) || stage == WRITING;
+    timing.surface = watch.seconds(|stage| !around(stage));
     timing.write = watch.seconds(|stage| stage == WRITING);
     timing.total = watch.total();
 }

@@ -1,6 +1,7 @@
 //! Why a job was not done.
 
 use super::DesignError;
+use crate::ground::GroundError;
 use crate::model::{Defects, Slope};
 use crate::read::ReadError;
 use crate::report::BuriedStretch;
@@ -28,6 +29,16 @@ pub enum Error {
         /// Why.
         cause: SurfaceError,
     },
+    /// Line and ground do not go together.
+    #[error("{}", placed_on(.label, .ground, .cause))]
+    Ground {
+        /// The line.
+        label: String,
+        /// The ground.
+        ground: String,
+        /// Why.
+        cause: GroundError,
+    },
     /// Stretches of the line are buried, and that was not to be.
     #[error(transparent)]
     Buried(#[from] BuriedError),
@@ -36,9 +47,16 @@ pub enum Error {
     Write(#[from] WriteError),
 }
 
-/// The engine's message with the input, which it does not know, below its first line.
+/// The engine's message with the inputs, which it does not know, below its first line.
 fn placed(label: &str, cause: &SurfaceError) -> String {
-    let message = cause.to_string();
+    located(label, &cause.to_string())
+}
+
+fn placed_on(label: &str, ground: &str, cause: &GroundError) -> String {
+    located(&format!("{label} on {ground}"), &cause.to_string())
+}
+
+fn located(label: &str, message: &str) -> String {
     match message.split_once('\n') {
         Some((what, rest)) => format!("{what}\n  --> {label}\n{rest}"),
         None => format!("{message}\n  --> {label}"),

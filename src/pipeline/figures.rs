@@ -1,12 +1,16 @@
 //! The engine's figures in the words of the report.
 
-use crate::model::{Design, Line, Note, Sheet};
+mod on_ground;
+
+pub(super) use on_ground::{Inputs, ground_report};
+
+use crate::model::{Design, Line, Note, Sheet, Tin};
 use crate::read::Source;
 use crate::report::{
     Balance, BuriedStretch, Certificate, Depths, Detail, Input, LineFigures, Reference, Report, SCHEMA, Slopes, SurfaceFigures,
     Timing, Tool, Units, Volumes, Warning,
 };
-use crate::surface::Surface;
+use crate::surface::{self, Areas, Surface};
 use std::collections::BTreeMap;
 
 /// The report of a run; its times are still to be filled in.
@@ -19,34 +23,22 @@ pub(super) fn report(line: &Line, source: &Source, design: &Design, surface: &Su
     let mut levels = surface.levels.clone();
     levels.sort_by(f64::total_cmp);
     let v = &surface.volumes;
-    let areas = &surface.areas;
     let buried = buried(line, surface);
-    let mut warnings: Vec<Warning> = notes
-        .iter()
-        .map(|note| Warning { code: note.code.to_owned(), message: note.message.clone(), details: BTreeMap::new() })
-        .collect();
+    let mut warnings = warnings(notes);
     if let Some(warning) = warnings.iter_mut().find(|warning| warning.code == BURIED) {
         warning.details = buried_details(&buried);
     }
     Report {
         schema: SCHEMA,
         tool: Tool::default(),
-        inputs: vec![input(source)],
+        inputs: vec![input("line", source)],
         units: Units::default(),
         slopes,
-        line: line_figures(line, surface, buried),
+        line: line_figures(line, (surface.simplified, surface.simplified_max), buried),
         extent: design.extent.into(),
         levels,
-        surface: SurfaceFigures {
-            vertices: surface.tin.vertices.len(),
-            triangles: surface.tin.triangles.len(),
-            plan_area: areas.plan,
-            slope_area: areas.fill_slope + areas.cut_slope,
-            fill_slope_area: areas.fill_slope,
-            cut_slope_area: areas.cut_slope,
-            platform_area: areas.platform,
-        },
-        certificate: certificate(surface),
+        surface: surface_figures(&surface.tin, &surface.areas),
+        certificate: certificate(&surface.certificate),
         volumes: Some(Volumes {
             method: "prisms".to_owned(),
             cut: v.cut,
@@ -55,12 +47,30 @@ pub(super) fn report(line: &Line, source: &Source, design: &Design, surface: &Su
             balance: Balance::of(v.cut, v.fill),
             error_bound: v.error_bound,
             complete: true,
-            reference: Reference { kind: "plane".to_owned(), elevation: Some(v.reference) },
+            reference: Reference::plane(v.reference),
+            parts: None,
+            bulking: None,
+            end_area: None,
+            prismoidal: None,
         }),
-        depths: Some(Depths { cut_max: v.cut_max, fill_max: v.fill_max }),
+        areas: None,
+        depths: Some(Depths { cut_max: v.cut_max, fill_max: v.fill_max, ..Depths::default() }),
+        daylight: None,
+        stations: None,
+        pads: None,
+        section_slope: None,
+        terrain: None,
+        finished: None,
         warnings,
         timing: Timing::default(),
     }
+}
+
+fn warnings(notes: &[Note]) -> Vec<Warning> {
+    notes
+        .iter()
+        .map(|note| Warning { code: note.code.to_owned(), message: note.message.clone(), details: BTreeMap::new() })
+        .collect()
 }
 
 /// Code of the note about buried stretches.
@@ -87,9 +97,21 @@ fn buried_details(stretches: &[BuriedStretch]) -> BTreeMap<&'static str, Detail>
     details
 }
 
-fn input(source: &Source) -> Input {
+fn surface_figures(tin: &Tin, areas: &Areas) -> SurfaceFigures {
+    SurfaceFigures {
+        vertices: tin.vertices.len(),
+        triangles: tin.triangles.len(),
+        plan_area: areas.plan,
+        slope_area: areas.fill_slope + areas.cut_slope,
+        fill_slope_area: areas.fill_slope,
+        cut_slope_area: areas.cut_slope,
+        platform_area: areas.platform,
+    }
+}
+
+fn input(role: &str, source: &Source) -> Input {
     Input {
-        role: "line".to_owned(),
+        role: role.to_owned(),
         path: if source.label == "<stdin>" { "-".to_owned() } else { source.label.clone() },
         sha256: source.sha256.clone(),
         format: source.format.name().to_owned(),
@@ -112,15 +134,15 @@ pub(super) fn buried(line: &Line, surface: &Surface) -> Vec<BuriedStretch> {
     surface.buried.iter().map(stretch).collect()
 }
 
-fn line_figures(line: &Line, surface: &Surface, buried: Vec<BuriedStretch>) -> LineFigures {
+fn line_figures(line: &Line, simplified: (usize, f64), buried: Vec<BuriedStretch>) -> LineFigures {
     let (z_min, z_max) = line.elevation_range();
     let segments = line.chains.iter().flat_map(|chain| (0..chain.segment_count()).map(|i| chain.segment(i)));
     let gradients = segments.map(|(a, b)| (b.z - a.z).abs() / a.truncate().distance(b.truncate()));
     LineFigures {
         chains: line.chains.len(),
         vertices: line.vertex_count(),
-        simplified: surface.simplified,
-        simplified_max: surface.simplified_max,
+        simplified: simplified.0,
+        simplified_max: simplified.1,
         length: line.chains.iter().filter_map(|chain| chain.stations().last().copied()).sum(),
         z_min,
         z_max,
@@ -130,8 +152,7 @@ fn line_figures(line: &Line, surface: &Surface, buried: Vec<BuriedStretch>) -> L
 }
 
 /// The engine's certificate as reported.
-fn certificate(surface: &Surface) -> Certificate {
-    let c = &surface.certificate;
+fn certificate(c: &surface::Certificate) -> Certificate {
     Certificate {
         paired: c.paired,
         slope_max_deviation_deg: c.strip_max_deviation_deg.max(c.sector_max_deviation_deg),

@@ -9,6 +9,10 @@ use std::time::{Duration, Instant};
 pub(super) const READING: &str = "read";
 /// Stage in which they are checked.
 pub(super) const CHECKING: &str = "check";
+/// Stage in which the ground is read.
+pub(super) const READING_GROUND: &str = "read ground";
+/// Stage in which the ground is triangulated and checked.
+pub(super) const PREPARING: &str = "prepare ground";
 /// Last stage, in which outputs are written.
 pub const WRITING: &str = "write";
 
@@ -48,8 +52,7 @@ impl<'a> Stopwatch<'a> {
     }
 
     pub(super) fn note(&self, note: &Note) {
-        self.record().notes.push(note.clone());
-        self.observer.note(note);
+        Observer::note(self, note);
     }
 
     /// All notes so far.
@@ -81,6 +84,13 @@ impl Watch for Stopwatch<'_> {
 
     fn cancelled(&self) -> bool {
         self.observer.cancelled()
+    }
+}
+
+impl Observer for Stopwatch<'_> {
+    fn note(&self, note: &Note) {
+        self.record().notes.push(note.clone());
+        self.observer.note(note);
     }
 }
 

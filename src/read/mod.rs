@@ -7,6 +7,7 @@ mod error;
 mod geojson;
 mod number;
 mod sniff;
+pub mod terrain;
 
 pub use columns::ColumnOrder;
 pub use error::ReadError;
@@ -24,6 +25,12 @@ pub enum InputFormat {
     GeoJson,
     /// Rows of text: comma, semicolon, tab or blanks between the fields.
     Csv,
+    /// Wavefront OBJ: ground only.
+    Obj,
+    /// Stanford PLY: ground only.
+    Ply,
+    /// ESRI ASCII grid: ground only.
+    Asc,
 }
 
 impl InputFormat {
@@ -32,6 +39,9 @@ impl InputFormat {
         match self {
             Self::GeoJson => "geojson",
             Self::Csv => "csv",
+            Self::Obj => "obj",
+            Self::Ply => "ply",
+            Self::Asc => "asc",
         }
     }
 
@@ -41,6 +51,9 @@ impl InputFormat {
         match extension.as_str() {
             "geojson" | "json" => Some(Self::GeoJson),
             "csv" | "txt" | "tsv" | "xyz" => Some(Self::Csv),
+            "obj" => Some(Self::Obj),
+            "ply" => Some(Self::Ply),
+            "asc" => Some(Self::Asc),
             _ => None,
         }
     }
@@ -177,13 +190,25 @@ pub fn read_line(path: &Path, options: &ReadOptions) -> Result<RawInput, ReadErr
 /// As [`read_line`].
 pub fn parse_line(label: &str, bytes: &[u8], format: InputFormat, order: Option<&ColumnOrder>) -> Result<RawInput, ReadError> {
     let mut notes = Vec::new();
-    let text = decode::text(label, bytes, &mut notes)?;
+    let text = match format {
+        InputFormat::GeoJson | InputFormat::Csv => decode::text(label, bytes, &mut notes)?,
+        InputFormat::Obj | InputFormat::Ply | InputFormat::Asc => return Err(no_line(label, format)),
+    };
     let mut source = source(label, format, bytes);
     let lines = match format {
         InputFormat::GeoJson => geojson::lines(&text, &mut source, &mut notes)?,
-        InputFormat::Csv => csv::lines(&text, &mut source, order, &mut notes)?,
+        _ => csv::lines(&text, &mut source, order, &mut notes)?,
     };
     Ok(RawInput { source, lines, notes })
+}
+
+fn no_line(label: &str, format: InputFormat) -> ReadError {
+    ReadError::Content {
+        what: "no line can be read from a ground file".into(),
+        at: label.to_owned(),
+        figures: format!("format: {format}"),
+        help: "give the line as GeoJSON or text, and the ground with `--terrain`".into(),
+    }
 }
 
 /// Reads points from a text file, or from standard input when the path is `-`. Elevations are not needed.

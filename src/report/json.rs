@@ -37,7 +37,7 @@ fn first_null(value: &Value, path: &str) -> Option<String> {
 mod tests {
     use super::*;
     use crate::report::Detail;
-    use crate::report::testing::{full, least};
+    use crate::report::testing::{compare, full, least, on_ground};
 
     fn json(report: &Report) -> String {
         let mut bytes = Vec::new();
@@ -47,7 +47,12 @@ mod tests {
 
     #[test]
     fn a_full_report_is_pinned() {
-        crate::report::testing::compare(&json(&full()), include_str!("../../tests/golden/report.json"), "report.json");
+        compare(&json(&full()), include_str!("../../tests/golden/report.json"), "report.json");
+    }
+
+    #[test]
+    fn a_full_report_on_ground_is_pinned() {
+        compare(&json(&on_ground()), include_str!("../../tests/golden/report_ground.json"), "report_ground.json");
     }
 
     #[test]
@@ -73,6 +78,7 @@ mod tests {
         assert_eq!(refuse(|r| r.certificate.height_max_deviation = f64::NAN), expected("certificate.height_max_deviation"));
         assert_eq!(refuse(|r| r.line.buried[1].depth = f64::INFINITY), expected("line.buried[1].depth"));
         assert_eq!(refuse(|r| r.levels[2] = f64::NAN), expected("levels[2]"));
+        assert_eq!(refuse(|r| r.extent.value = Some(f64::NAN)), expected("extent.value"));
         assert_eq!(
             refuse(|r| drop(r.warnings[0].details.insert("depth", Detail::Number(f64::NAN)))),
             expected("warnings[0].depth")

@@ -1,5 +1,6 @@
 //! What a run has to tell: as data ([`Report`]), as JSON for machines, as text for people.
 
+pub mod ground;
 pub mod json;
 pub mod model;
 pub mod text;
@@ -8,10 +9,14 @@ pub mod volumes;
 #[cfg(test)]
 mod testing;
 
+pub use ground::{
+    Daylight, EndArea, FinishedFigures, GroundAreas, PadRow, SectionRow, SectionSlopes, SlopeRange, StationRow, TerrainFigures,
+    ThreeSections, station_rows,
+};
 pub use json::write_json;
 pub use model::*;
 pub use text::write_text;
-pub use volumes::{Balance, Depths, Reference, Volumes};
+pub use volumes::{Balance, BulkingFigures, CutFillFigures, DepthPlace, Depths, Reference, VolumeParts, Volumes};
 
 use crate::write::{EncodeError, Target, UnknownFormat, ending};
 use std::io::Write;

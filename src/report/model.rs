@@ -3,6 +3,7 @@
 //! Plain structures that the pipeline fills; keys, their order and their meaning are described in `docs/report.md`. Lengths are
 //! in the unit of the input, areas and volumes in its square and cube. A key that does not apply is left out, never `null`.
 
+use super::ground::{Daylight, FinishedFigures, GroundAreas, PadRow, SectionSlopes, StationRow, TerrainFigures};
 use super::volumes::{Depths, Volumes};
 use crate::model::{Extent, Slope};
 use serde::Serialize;
@@ -37,9 +38,30 @@ pub struct Report {
     /// Cut and fill.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub volumes: Option<Volumes>,
+    /// Plan areas of the existing ground.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub areas: Option<GroundAreas>,
     /// Greatest depths of cut and fill.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub depths: Option<Depths>,
+    /// Where the slopes meet the existing ground.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub daylight: Option<Daylight>,
+    /// Cut and fill by station.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stations: Option<Vec<StationRow>>,
+    /// Cut and fill of platforms without stations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pads: Option<PadRow>,
+    /// The slopes as seen in sections perpendicular to the line.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub section_slope: Option<SectionSlopes>,
+    /// The existing ground.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub terrain: Option<TerrainFigures>,
+    /// The finished ground.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub finished: Option<FinishedFigures>,
     /// What the reader should know.
     pub warnings: Vec<Warning>,
     /// Seconds spent. The one part that differs from run to run.
@@ -71,7 +93,7 @@ pub struct Input {
     pub path: String,
     /// SHA-256 of its bytes, 64 lower-case hexadecimal digits.
     pub sha256: String,
-    /// `geojson` or `csv`.
+    /// `geojson`, `csv`, for existing ground also others.
     pub format: String,
     /// Name of its coordinate system, where it gives one.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -171,8 +193,14 @@ pub struct BuriedStretch {
 pub struct ExtentFigures {
     /// What the value is.
     pub kind: ExtentKind,
-    /// The value, in the length unit.
-    pub value: f64,
+    /// The value, in the length unit, where the kind has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub value: Option<f64>,
+}
+
+impl ExtentFigures {
+    /// The slopes end at the existing ground.
+    pub const GROUND: Self = Self { kind: ExtentKind::Ground, value: None };
 }
 
 /// What the value of an extent is.
@@ -185,6 +213,8 @@ pub enum ExtentKind {
     Height,
     /// A plan distance from the line.
     Distance,
+    /// The existing ground; without a value.
+    Ground,
 }
 
 impl From<Extent> for ExtentFigures {
@@ -194,7 +224,7 @@ impl From<Extent> for ExtentFigures {
             Extent::Height(value) => (ExtentKind::Height, value),
             Extent::Distance(value) => (ExtentKind::Distance, value),
         };
-        Self { kind, value }
+        Self { kind, value: Some(value) }
     }
 }
 
@@ -269,9 +299,12 @@ pub enum Detail {
 pub struct Timing {
     /// Reading and validation.
     pub read: f64,
+    /// Reading and checking the existing ground.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub terrain: Option<f64>,
     /// The surface and its certificate.
     pub surface: f64,
-    /// Areas and volumes.
+    /// Areas and volumes; with existing ground the daylight line and the finished ground, too.
     pub volume: f64,
     /// Meshes and line work, up to the report.
     pub write: f64,

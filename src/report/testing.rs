@@ -1,7 +1,10 @@
 //! For tests: reports filled by hand.
 
 use super::*;
-use crate::model::{Extent, Slope};
+use crate::ground::{Axis, Corner, Piece, Sections, Stations, Tally};
+use crate::kernel::frame::Frame;
+use crate::model::{Bulking, Extent, Part, Slope};
+use glam::DVec2;
 
 /// A report with every key.
 pub(super) fn full() -> Report {
@@ -68,9 +71,20 @@ pub(super) fn full() -> Report {
             balance: Balance::of(0.0, 1_234_567.891),
             error_bound: 81.5,
             complete: true,
-            reference: Reference { kind: "plane".into(), elevation: Some(390.0) },
+            reference: Reference::plane(390.0),
+            parts: None,
+            bulking: None,
+            end_area: None,
+            prismoidal: None,
         }),
-        depths: Some(Depths { cut_max: 0.0, fill_max: 41.25 }),
+        areas: None,
+        depths: Some(Depths { cut_max: 0.0, fill_max: 41.25, ..Depths::default() }),
+        daylight: None,
+        stations: None,
+        pads: None,
+        section_slope: None,
+        terrain: None,
+        finished: None,
         warnings: vec![Warning {
             code: "buried".into(),
             message: "2 stretches of the line lie under the slope of another part".into(),
@@ -78,8 +92,70 @@ pub(super) fn full() -> Report {
                 .into_iter()
                 .collect(),
         }],
-        timing: Timing { read: 0.001, surface: 0.25, volume: 0.002, write: 0.0625, total: 0.3155 },
+        timing: Timing { read: 0.001, terrain: None, surface: 0.25, volume: 0.002, write: 0.0625, total: 0.3155 },
     }
+}
+
+/// A report on a road of 50 in two kinds of ground, with every key that needs existing ground. Figures from a platform
+/// 10 wide that rises against the ground from −1 to 1.5, a side slope of which only the fill counts, and a pad apart.
+pub(super) fn on_ground() -> Report {
+    let mut report = full();
+    let stations = Stations::new(vec![axis()], Some(20.0)).unwrap();
+    let (mut tally, mut sections) = (Tally::new(&stations), Sections::new(&stations));
+    let mut add = |part, axis, [x0, x1]: [f64; 2], [y0, y1]: [f64; 2]| {
+        let corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)];
+        let corners = corners.map(|at| Corner { at: at.into(), height: at.0 / 20.0 - 1.0, station: at.0 });
+        let piece = Piece { part, axis, corners: &corners };
+        tally.add(&piece);
+        sections.add(&piece);
+    };
+    add(Part::Platform, Some(0), [0.0, 50.0], [-5.0, 5.0]);
+    add(Part::FillSlope, Some(0), [20.0, 50.0], [5.0, 7.0]);
+    add(Part::Platform, None, [70.0, 75.0], [-1.0, 1.0]);
+    let (tallied, sections) = (tally.finish(), sections.finish());
+    let soil = Bulking::new(0.25, 0.1).unwrap();
+    let total = tallied.total;
+    report.inputs.push(Input {
+        role: "terrain".into(),
+        path: "site/ground.obj".into(),
+        format: "obj".into(),
+        crs: None,
+        ..report.inputs[0].clone()
+    });
+    report.extent = ExtentFigures::GROUND;
+    report.volumes = Some(Volumes {
+        cut: total.cut,
+        fill: total.fill,
+        net: total.net(),
+        balance: Balance::of(total.cut, total.fill),
+        error_bound: 0.5,
+        complete: false,
+        reference: Reference::terrain("site/ground.obj"),
+        parts: Some(VolumeParts::of(&tallied)),
+        bulking: Some(BulkingFigures::of(total.cut, total.fill, soil)),
+        end_area: Some(sections.average_end_area.into()),
+        prismoidal: Some(sections.prismoidal.into()),
+        method: "prisms".into(),
+    });
+    report.areas = Some(GroundAreas { cut: total.cut_area, fill: total.fill_area, unaffected: 4_000_000.0 });
+    let mut depths = Depths::of(&tallied, &stations, Frame::WORLD);
+    depths.fill_max_at.as_mut().unwrap().z = Some(400.5);
+    report.depths = Some(depths);
+    report.daylight = Some(Daylight { loops: 3, length: 120.5, open_length: 12.25, cut_length: 50.25, fill_length: 70.25 });
+    report.stations = Some(station_rows(&stations, &tallied, Some(&sections), Some(soil)));
+    report.pads = Some(tallied.pads.into());
+    let range = |min, max| Some(SlopeRange { min: SlopeFigures::from(Slope::from_ratio(min).unwrap()), max });
+    report.section_slope =
+        Some(SectionSlopes { cut: range(0.98, report.slopes.cut.unwrap()), fill: range(1.0 / 1.5, report.slopes.fill.unwrap()) });
+    report.terrain =
+        Some(TerrainFigures { vertices: 1_000_000, triangles: 1_998_000, triangles_used: 4321, z_min: 380.0, z_max: 455.125 });
+    report.finished = Some(FinishedFigures { vertices: 1_012_345, triangles: 2_022_690 });
+    report.timing.terrain = Some(0.75);
+    report
+}
+
+fn axis() -> Axis {
+    Axis { name: "road".into(), length: 50.0, closed: false, line: vec![(DVec2::ZERO, 0.0), (DVec2::new(50.0, 0.0), 50.0)] }
 }
 
 /// A report with no key more than needed.

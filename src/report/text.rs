@@ -1,5 +1,7 @@
 //! The report for people.
 
+mod ground;
+
 use super::{Certificate, ExtentKind, LineFigures, Report, SlopeFigures, SurfaceFigures, Volumes};
 use crate::model::Slope;
 use crate::write::EncodeError;
@@ -43,6 +45,10 @@ pub fn render(report: &Report) -> String {
     for (name, slope) in [("cut", report.slopes.cut), ("fill", report.slopes.fill)] {
         if let Some(slope) = slope {
             page.words(name, &forms(slope));
+            let seen = report.section_slope.and_then(|seen| if name == "cut" { seen.cut } else { seen.fill });
+            if let Some(range) = seen {
+                ground::section_slope(&mut page, range);
+            }
         }
     }
     page.section("Extent");
@@ -50,19 +56,30 @@ pub fn render(report: &Report) -> String {
         ExtentKind::Elevation => "to elevation",
         ExtentKind::Height => "height",
         ExtentKind::Distance => "plan distance",
+        ExtentKind::Ground => "to existing ground",
     };
-    page.length(kind, report.extent.value);
+    match report.extent.value {
+        Some(value) => page.length(kind, value),
+        None => page.words(kind, "where they meet it"),
+    }
     if let (Some(first), Some(last)) = (report.levels.first(), report.levels.last()) {
         page.words("levels", &format!("{} from {first} to {last}", report.levels.len()));
     }
     surface(&mut page, &report.surface);
     certificate(&mut page, &report.certificate);
+    ground::terrain(&mut page, report);
     if let Some(volumes) = &report.volumes {
         self::volumes(&mut page, volumes);
+        ground::volumes(&mut page, volumes);
     }
-    if let Some(depths) = report.depths {
-        page.length("deepest cut", depths.cut_max);
-        page.length("deepest fill", depths.fill_max);
+    if let Some(depths) = &report.depths {
+        ground::depths(&mut page, depths);
+    }
+    if let Some(soil) = report.volumes.as_ref().and_then(|volumes| volumes.bulking) {
+        ground::bulking(&mut page, soil);
+    }
+    if let Some(stations) = &report.stations {
+        ground::stations(&mut page, stations, report.pads, report.volumes.as_ref());
     }
     if !report.warnings.is_empty() {
         page.section("Warnings");
@@ -136,6 +153,7 @@ fn certificate(page: &mut Page<'_>, c: &Certificate) {
 fn volumes(page: &mut Page<'_>, v: &Volumes) {
     let against = match v.reference.elevation {
         Some(z) => format!("{} at elevation {z}", v.reference.kind),
+        None if v.reference.kind == "terrain" => "existing ground".to_owned(),
         None => v.reference.kind.clone(),
     };
     page.section(&format!("Volumes ({}, against the {against})", v.method));
@@ -216,11 +234,26 @@ impl Page<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::testing::{compare, full, least};
+    use crate::report::testing::{compare, full, least, on_ground};
 
     #[test]
     fn a_full_report_is_pinned() {
         compare(&render(&full()), include_str!("../../tests/golden/report.txt"), "report.txt");
+    }
+
+    #[test]
+    fn a_full_report_on_ground_is_pinned() {
+        compare(&render(&on_ground()), include_str!("../../tests/golden/report_ground.txt"), "report_ground.txt");
+    }
+
+    #[test]
+    fn lines_are_told_apart_by_name() {
+        let mut report = on_ground();
+        report.stations.as_mut().unwrap()[1].chain = "Rampe\u{1b}".into();
+        let text = render(&report);
+        assert!(text.matches("\n  road\n").count() == 2 && text.contains("\n  Rampe \n"), "{text}");
+        report.stations.as_mut().unwrap()[1].chain = "road".into();
+        assert!(!render(&report).contains("\n  road\n"));
     }
 
     #[test]

@@ -21,6 +21,61 @@ pub struct Volumes {
     pub complete: bool,
     /// What the volumes are taken against.
     pub reference: Reference,
+    /// Platform and slopes apart.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub parts: Option<VolumeParts>,
+    /// With the change in volume of the soil.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bulking: Option<BulkingFigures>,
+    /// Sum over the stations by average end area.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub end_area: Option<CutFillFigures>,
+    /// Sum over the stations by the prismoidal formula.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub prismoidal: Option<CutFillFigures>,
+}
+
+/// A figure for cut and one for fill; not negative.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct CutFillFigures {
+    /// Of cut.
+    pub cut: f64,
+    /// Of fill.
+    pub fill: f64,
+}
+
+/// Volumes by part.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct VolumeParts {
+    /// Under and above the platform.
+    pub platform: CutFillFigures,
+    /// Under and above the slopes.
+    pub slopes: CutFillFigures,
+}
+
+/// Volumes with the change in volume of the soil.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct BulkingFigures {
+    /// Gain in volume when dug, as a share of the volume in the ground.
+    pub swell: f64,
+    /// Loss in volume when compacted, as a share of the volume in the ground.
+    pub shrink: f64,
+    /// The cut in the ground, as measured.
+    pub cut_bank: f64,
+    /// The cut when dug.
+    pub cut_loose: f64,
+    /// What the cut gives when compacted.
+    pub cut_compacted: f64,
+    /// The fill when compacted, as measured.
+    pub fill_compacted: f64,
+    /// Volume in the ground that gives the fill.
+    pub fill_bank: f64,
+    /// The same when dug.
+    pub fill_loose: f64,
+    /// `cut_bank − fill_bank`.
+    pub net_bank: f64,
+    /// The sign of `net_bank` in a word.
+    pub balance: Balance,
 }
 
 /// What is left over, or lacking.
@@ -63,18 +118,57 @@ impl Balance {
 /// What volumes are taken against.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
-    /// `plane`: horizontal.
+    /// `plane`: horizontal; `terrain`: existing ground.
     pub kind: String,
     /// Elevation of the plane.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub elevation: Option<f64>,
+    /// Path of the ground as given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path: Option<String>,
+}
+
+impl Reference {
+    /// The plane at an elevation.
+    pub fn plane(elevation: f64) -> Self {
+        Self { kind: "plane".to_owned(), elevation: Some(elevation), path: None }
+    }
+
+    /// The existing ground of a file.
+    pub fn terrain(path: &str) -> Self {
+        Self { kind: "terrain".to_owned(), elevation: None, path: Some(path.to_owned()) }
+    }
 }
 
 /// Greatest vertical depths, not negative.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Depths {
     /// Of cut.
     pub cut_max: f64,
     /// Of fill.
     pub fill_max: f64,
+    /// Where that of cut is found.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cut_max_at: Option<DepthPlace>,
+    /// Where that of fill is found.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fill_max_at: Option<DepthPlace>,
+}
+
+/// Where a depth is found, in world coordinates.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct DepthPlace {
+    /// Easting.
+    pub x: f64,
+    /// Northing.
+    pub y: f64,
+    /// Elevation of the design.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z: Option<f64>,
+    /// Name of the line it belongs to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub chain: Option<String>,
+    /// Station on that line.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub station: Option<f64>,
 }

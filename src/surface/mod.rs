@@ -241,7 +241,7 @@ pub fn build(line: &Line, design: &Design, reference: Option<f64>, watch: &dyn W
     }
     let buried = buried::stretches(line, &sheet, &solved.closure);
     let flats = flats::fill(line, design, &network, &slopes, &buried.stretches)?;
-    go_on("check")?;
+    go_on("certificate")?;
     let body = Body::new(&network, design, &slopes, &flats);
     let (feet, foot_of) = feet_of(line, &sheet, &slopes);
     let marks = body.marks(&network, design);

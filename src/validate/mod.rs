@@ -6,6 +6,7 @@ mod rings;
 mod steep;
 mod vertices;
 
+pub use degrees::{Verdict, degrees};
 pub use steep::check_steepness;
 
 use crate::model::{Defects, Line, Note};

@@ -80,7 +80,7 @@ fn no_elevation_at_all(raw: &RawInput, defects: &mut Defects) -> bool {
 fn no_elevation_help(format: InputFormat) -> &'static str {
     match format {
         InputFormat::GeoJson => "give every vertex as [x, y, z]; drape the line on a terrain first if it has no heights",
-        InputFormat::Csv => "fill in the elevation, or take the row out",
+        _ => "fill in the elevation, or take the row out",
     }
 }
 

@@ -1,0 +1,126 @@
+//! What one section crosses, and how far it goes.
+
+use super::fan::Plane;
+use crate::ground::{CutFill, Piece};
+use crate::kernel::sum::Sum;
+use crate::model::Part;
+
+/// Corners this near a section, in the length unit, lie on it. So an edge along the section is seen from the pieces on both
+/// sides, whatever rounding did to it; what is seen twice is counted once.
+pub(super) const ON_PLANE: f64 = 1e-7;
+
+/// Gaps between pieces up to this, in the length unit, are rounding.
+const GAP: f64 = 1e-6;
+
+/// Two ends of a chord: offset from the axis, design minus ground height, station.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct End {
+    offset: f64,
+    height: f64,
+    station: f64,
+}
+
+impl End {
+    fn between(self, other: Self, share: f64) -> Self {
+        let mix = |a: f64, b: f64| a + (b - a) * share;
+        Self {
+            offset: mix(self.offset, other.offset),
+            height: mix(self.height, other.height),
+            station: mix(self.station, other.station),
+        }
+    }
+}
+
+/// Where a section crosses a piece, by ascending offset.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Chord {
+    from: End,
+    to: End,
+}
+
+impl Chord {
+    /// The chord seen against the direction of the axis.
+    pub(super) fn mirror(&mut self) {
+        let turned = |end: End| End { offset: -end.offset, ..end };
+        *self = Self { from: turned(self.to), to: turned(self.from) };
+    }
+
+    /// The part from an offset on; `None` if there is nothing.
+    fn beyond(self, offset: f64) -> Option<Self> {
+        let width = self.to.offset - self.from.offset;
+        if self.to.offset <= offset {
+            None
+        } else if self.from.offset >= offset {
+            Some(self)
+        } else {
+            Some(Self { from: self.from.between(self.to, (offset - self.from.offset) / width), to: self.to })
+        }
+    }
+}
+
+/// The chord of a section through a piece. The plane may also run along an edge.
+pub(super) fn chord(plane: &Plane, piece: &Piece<'_>) -> Option<Chord> {
+    let height = |height: f64| match piece.part {
+        Part::FillSlope => height.max(0.0),
+        Part::CutSlope => height.min(0.0),
+        Part::Platform | Part::Ground => height,
+    };
+    let mut found: Option<Chord> = None;
+    let mut meet = |end: End| match &mut found {
+        None => found = Some(Chord { from: end, to: end }),
+        Some(chord) if end.offset < chord.from.offset => chord.from = end,
+        Some(chord) if end.offset > chord.to.offset => chord.to = end,
+        Some(_) => {}
+    };
+    let place = |corner: &crate::ground::Corner| {
+        let (offset, ahead) = plane.split(corner.at);
+        (End { offset, height: height(corner.height), station: corner.station }, ahead)
+    };
+    let mut before = place(piece.corners.last()?);
+    for corner in piece.corners {
+        let here = place(corner);
+        if here.1.abs() <= ON_PLANE {
+            meet(here.0);
+        } else if before.1.abs() > ON_PLANE && (before.1 < 0.0) != (here.1 < 0.0) {
+            // From behind to ahead, whichever way the edge runs: neighbours get the same bits.
+            let (a, b) = if before.1 < 0.0 { (before, here) } else { (here, before) };
+            meet(a.0.between(b.0, a.1 / (a.1 - b.1)));
+        }
+        before = here;
+    }
+    found.filter(|chord| chord.to.offset > chord.from.offset)
+}
+
+/// Reach and areas of a section on the side of positive offsets. Chords are put in order. It ends at the first gap, and where
+/// the station jumps by more than `longest`; `ring` is the length of a closed axis.
+pub(super) fn outward(chords: &mut [Chord], station: f64, longest: f64, ring: Option<f64>) -> (f64, CutFill) {
+    chords.sort_by(|a, b| a.from.offset.total_cmp(&b.from.offset).then(a.to.offset.total_cmp(&b.to.offset)));
+    let apart = |a: f64, b: f64| {
+        let d = (a - b).abs();
+        ring.map_or(d, |length| d.min((length - d).abs()))
+    };
+    let (mut reach, mut station) = (0.0, station);
+    let (mut cut, mut fill) = (Sum::default(), Sum::default());
+    for chord in chords.iter() {
+        let Some(chord) = chord.beyond(reach) else { continue };
+        if chord.from.offset > reach + GAP || apart(chord.from.station, station) > longest {
+            break;
+        }
+        let (a, b) = (chord.from.height, chord.to.height);
+        let width = chord.to.offset - chord.from.offset;
+        cut.add(positive_area(width, -a, -b));
+        fill.add(positive_area(width, a, b));
+        (reach, station) = (chord.to.offset, chord.to.station);
+    }
+    (reach, CutFill { cut: cut.value(), fill: fill.value() })
+}
+
+/// Area between a linear function and nought where it is positive.
+fn positive_area(width: f64, a: f64, b: f64) -> f64 {
+    match (a > 0.0, b > 0.0) {
+        (false, false) => 0.0,
+        (true, false) => 0.5 * width * a * (a / (a - b)),
+        (false, true) => 0.5 * width * b * (b / (b - a)),
+        (true, true) => 0.5 * width * (a + b),
+    }
+}

@@ -1,0 +1,102 @@
+//! A tree of boxes over things that lie near each other in the order of their numbers.
+
+use glam::DVec2;
+use std::ops::{ControlFlow, Range};
+
+/// Things in a leaf, and children of a node.
+const FAN: usize = 8;
+
+/// An upright box in plan, corners included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Box2 {
+    pub(super) lo: DVec2,
+    pub(super) hi: DVec2,
+}
+
+impl Box2 {
+    pub(super) const EMPTY: Self = Self { lo: DVec2::INFINITY, hi: DVec2::NEG_INFINITY };
+
+    pub(super) fn around(points: impl IntoIterator<Item = DVec2>) -> Self {
+        points.into_iter().fold(Self::EMPTY, |b, p| Self { lo: b.lo.min(p), hi: b.hi.max(p) })
+    }
+
+    pub(super) fn join(self, other: Self) -> Self {
+        Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
+    }
+
+    pub(super) fn meets(&self, other: &Self) -> bool {
+        self.lo.cmple(other.hi).all() && other.lo.cmple(self.hi).all()
+    }
+}
+
+/// The tree: `levels[0]` has a box for every run of [`FAN`] things, each further level one for every run of the level below.
+#[derive(Debug, Default)]
+pub(super) struct Boxes {
+    count: usize,
+    levels: Vec<Vec<Box2>>,
+}
+
+impl Boxes {
+    /// A tree over `count` things with the boxes `of`.
+    pub(super) fn new(count: usize, of: impl Fn(usize) -> Box2) -> Self {
+        let run = |from: usize, end: usize| (from..(from + FAN).min(end)).map(&of).fold(Box2::EMPTY, Box2::join);
+        let mut levels: Vec<Vec<Box2>> = Vec::new();
+        let mut level: Vec<Box2> = (0..count).step_by(FAN).map(|i| run(i, count)).collect();
+        while level.len() > 1 {
+            let next = level.chunks(FAN).map(|c| c.iter().copied().fold(Box2::EMPTY, Box2::join)).collect();
+            levels.push(std::mem::replace(&mut level, next));
+        }
+        levels.push(level);
+        Self { count, levels }
+    }
+
+    /// Calls `visit` with runs of things whose common box meets `target`, in ascending order, until it breaks.
+    pub(super) fn meeting(&self, target: &Box2, mut visit: impl FnMut(Range<usize>) -> ControlFlow<()>) {
+        let top = self.levels.len().saturating_sub(1);
+        // Breaks are told by the result of the whole; nothing is to be done about them here.
+        let _ = self.descend(top, 0..self.levels.last().map_or(0, Vec::len), target, &mut visit);
+    }
+
+    fn descend(
+        &self,
+        level: usize,
+        nodes: Range<usize>,
+        target: &Box2,
+        visit: &mut impl FnMut(Range<usize>) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        for node in nodes {
+            if !self.levels[level][node].meets(target) {
+                continue;
+            }
+            let below = if level == 0 { self.count } else { self.levels[level - 1].len() };
+            let children = node * FAN..((node + 1) * FAN).min(below);
+            if level == 0 {
+                visit(children)?;
+            } else {
+                self.descend(level - 1, children, target, visit)?;
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn finds_all_in_order() {
+        let at = |i: usize| DVec2::new((i % 100) as f64, (i / 100) as f64);
+        for count in [0, 1, 7, 8, 9, 63, 64, 65, 5000] {
+            let tree = Boxes::new(count, |i| Box2::around([at(i), at(i) + 0.5]));
+            let target = Box2 { lo: DVec2::new(10.2, 0.7), hi: DVec2::new(12.0, 33.0) };
+            let mut found = Vec::new();
+            tree.meeting(&target, |run| {
+                found.extend(run.filter(|&i| Box2::around([at(i), at(i) + 0.5]).meets(&target)));
+                ControlFlow::Continue(())
+            });
+            let expected: Vec<usize> = (0..count).filter(|&i| Box2::around([at(i), at(i) + 0.5]).meets(&target)).collect();
+            assert_eq!(found, expected);
+        }
+    }
+}

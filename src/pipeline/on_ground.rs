@@ -1,0 +1,86 @@
+//! A line on existing ground: read → reach → designs → works → report.
+
+use super::build::{BuildJob, Product};
+use super::watch::Stopwatch;
+use super::{Error, Wishes, check_steepness, figures, ground};
+use crate::ground::{Options, Site};
+use crate::kernel::sum::Sum;
+use crate::mesh::volume::plan_area;
+use crate::model::{Design, Extent, Line, Sheet, Terrain};
+use crate::read::Source;
+use crate::read::terrain::TerrainOptions;
+use crate::report::TerrainFigures;
+use crate::terrain;
+use std::path::PathBuf;
+
+/// The file the existing ground comes from, and what is wanted of it.
+#[derive(Clone, Debug)]
+pub struct GroundInput {
+    /// Its path.
+    pub path: PathBuf,
+    /// What is known about its format.
+    pub options: TerrainOptions,
+    /// Accept slopes that end without meeting the ground.
+    pub allow_open: bool,
+}
+
+/// Builds on existing ground.
+pub(super) fn build(
+    job: &BuildJob,
+    input: &GroundInput,
+    line: &Line,
+    source: &Source,
+    watch: &Stopwatch<'_>,
+) -> Result<Product, Error> {
+    let (terrain, ground_source) = ground::read_ground(&input.path, &input.options, watch)?;
+    terrain::check_overlap(&terrain, &ground_source.label, line, &source.label)?;
+    for wishes in &job.wishes {
+        check_steepness(line, source, wishes.slope)?;
+    }
+    let mut site = Site::new(line, terrain);
+    let designs = designs(&job.wishes, &mut site, line, &source.label, watch)?;
+    let options = Options { allow_open: input.allow_open, finished: !job.finished.is_empty(), stations: job.stations };
+    let (terrain, area) = terrain_figures(site.terrain());
+    let built = site.build(&designs, &options, watch).map_err(|cause| Error::Ground {
+        label: source.label.clone(),
+        ground: ground_source.label.clone(),
+        cause,
+    })?;
+    let inputs = figures::Inputs { line, source, ground: &ground_source, terrain, area };
+    let report = figures::ground_report(&inputs, job, &designs, &built, &watch.notes());
+    Ok(Product { design: built.design, finished: built.finished, lines: built.lines, report })
+}
+
+/// One design for each sheet, as deep as it can reach ground.
+fn designs(all: &[Wishes], site: &mut Site<'_>, line: &Line, label: &str, watch: &Stopwatch<'_>) -> Result<Vec<Design>, Error> {
+    let (low, high) = line.elevation_range();
+    let mut chosen = Vec::new();
+    let mut designs = Vec::new();
+    for wishes in all {
+        let end = site.end(wishes.slope, wishes.sheet, wishes.tolerance);
+        let applies = |extent: &Extent| match (*extent, wishes.sheet) {
+            (Extent::Elevation(z), Sheet::Falling) => z < high,
+            (Extent::Elevation(z), Sheet::Rising) => z > low,
+            _ => true,
+        };
+        let extent = wishes.extent.filter(applies).unwrap_or(Extent::Elevation(end));
+        designs.push(Wishes { extent: Some(extent), ..wishes.clone() }.settle(line, label, &mut chosen)?);
+    }
+    chosen.dedup();
+    chosen.iter().for_each(|note| watch.note(note));
+    Ok(designs)
+}
+
+/// Figures of the ground as given, and its plan area.
+fn terrain_figures(terrain: &Terrain) -> (TerrainFigures, f64) {
+    let heights = terrain.vertices.iter().map(|v| v.z);
+    let figures = TerrainFigures {
+        vertices: terrain.vertices.len(),
+        triangles: terrain.triangles.len(),
+        triangles_used: 0,
+        z_min: heights.clone().fold(f64::INFINITY, f64::min),
+        z_max: heights.fold(f64::NEG_INFINITY, f64::max),
+    };
+    let area = (0..terrain.triangles.len()).map(|t| plan_area(terrain.corners(t))).collect::<Sum>().value();
+    (figures, area)
+}

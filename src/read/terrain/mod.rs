@@ -1,0 +1,206 @@
+//! Existing ground: bytes → raw meshes, points and grids, in world coordinates and in the order of the file.
+
+mod asc;
+mod decimal;
+mod kind;
+mod obj;
+mod ply;
+mod points;
+
+use super::{ColumnOrder, InputFormat, ReadError, Source};
+use crate::model::Note;
+use glam::{DVec2, DVec3};
+use std::path::Path;
+
+/// What the caller knows about a ground file.
+#[derive(Clone, Debug, Default)]
+pub struct TerrainOptions {
+    /// Its format; `None`: from the extension, else from the content. [`InputFormat::GeoJson`] is no format of ground.
+    pub format: Option<InputFormat>,
+    /// The columns of a text file without header.
+    pub csv_order: Option<ColumnOrder>,
+}
+
+/// Faces of a mesh, corners as vertex indices, all of them below the number of vertices.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RawFaces {
+    /// Nothing but triangles.
+    Triangles(Vec<[u32; 3]>),
+    /// Faces of three and more corners.
+    Polygons {
+        /// Corners of all faces, one after the other.
+        corners: Vec<u32>,
+        /// Where each face ends in `corners`.
+        ends: Vec<usize>,
+    },
+}
+
+/// Heights at the nodes of an upright grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawGrid {
+    /// Nodes from west to east.
+    pub columns: usize,
+    /// Nodes from north to south.
+    pub rows: usize,
+    /// The south-west node.
+    pub origin: DVec2,
+    /// Distance of the nodes, both positive.
+    pub step: DVec2,
+    /// Heights row by row, the northernmost first, each from the west; NaN where there is none.
+    pub heights: Vec<f64>,
+}
+
+/// The shape of ground as a file gives it. All coordinates are finite.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RawGround {
+    /// Vertices and faces.
+    Mesh {
+        /// The vertices in the order of the file.
+        vertices: Vec<DVec3>,
+        /// At least one face.
+        faces: RawFaces,
+    },
+    /// Points without faces.
+    Points(Vec<DVec3>),
+    /// A grid.
+    Grid(RawGrid),
+}
+
+/// Ground as read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawTerrain {
+    /// Where it came from.
+    pub source: Source,
+    /// What it is.
+    pub ground: RawGround,
+    /// What was seen on the way.
+    pub notes: Vec<Note>,
+}
+
+/// Reads existing ground from a file: OBJ, PLY, points as text, ESRI ASCII grid.
+///
+/// # Errors
+/// [`ReadError`] when the file cannot be opened, when its content is not what its name says, or when it is damaged: the
+/// message names line or element. Whether the ground is sound is left to [`crate::terrain`].
+pub fn read_terrain(path: &Path, options: &TerrainOptions) -> Result<RawTerrain, ReadError> {
+    let label = path.display().to_string();
+    if path == Path::new("-") {
+        let help = "write the ground to a file first; only the line can come from standard input";
+        return Err(refuse("the ground cannot be read from standard input", "<stdin>", "it is given as `-`", help));
+    }
+    let bytes = std::fs::read(path).map_err(|cause| ReadError::Open { label: label.clone(), cause })?;
+    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
+    let format = match options.format.or_else(|| InputFormat::from_path(path)) {
+        Some(format) => format,
+        None => kind::only_by_content(&label, &bytes)?,
+    };
+    // Files named `.xyz` have these columns by their name; other text files have to say.
+    let by_name: Option<ColumnOrder> = if extension == "xyz" { "xyz".parse().ok() } else { None };
+    let order = options.csv_order.clone();
+    parse(&label, &bytes, format, order.as_ref(), by_name.as_ref())
+}
+
+/// Reads existing ground from bytes; `label` names them in messages, `order` the columns of text without header.
+///
+/// # Errors
+/// As [`read_terrain`].
+pub fn parse_terrain(
+    label: &str,
+    bytes: &[u8],
+    format: InputFormat,
+    order: Option<&ColumnOrder>,
+) -> Result<RawTerrain, ReadError> {
+    parse(label, bytes, format, order, None)
+}
+
+fn parse(
+    label: &str,
+    bytes: &[u8],
+    format: InputFormat,
+    order: Option<&ColumnOrder>,
+    by_name: Option<&ColumnOrder>,
+) -> Result<RawTerrain, ReadError> {
+    kind::check(label, bytes, format)?;
+    // The checksum takes as long as the fast formats themselves.
+    let (mut source, read) = rayon::join(
+        || super::source(label, format, bytes),
+        || {
+            let mut notes = Vec::new();
+            let ground = match format {
+                InputFormat::Obj => obj::read(label, bytes, &mut notes),
+                InputFormat::Ply => ply::read(label, bytes, &mut notes),
+                InputFormat::Asc => asc::read(label, bytes, &mut notes),
+                InputFormat::Csv | InputFormat::GeoJson => points::read(label, bytes, order, by_name, &mut notes),
+            };
+            ground.map(|(ground, said)| (ground, said, notes))
+        },
+    );
+    let (ground, said, notes) = read?;
+    source.kind = said.kind;
+    source.crs = said.crs;
+    Ok(RawTerrain { source, ground, notes })
+}
+
+/// What a ground file says about its coordinates.
+#[derive(Default)]
+struct Said {
+    kind: super::CoordinateKind,
+    crs: Option<String>,
+}
+
+/// A file refused as a whole.
+fn refuse(what: &str, at: impl Into<String>, figures: impl Into<String>, help: &str) -> ReadError {
+    ReadError::Content { what: what.into(), at: at.into(), figures: figures.into(), help: help.into() }
+}
+
+/// A piece of a file short enough for a message, with what cannot be printed replaced.
+fn clip(bytes: &[u8]) -> String {
+    const LONGEST: usize = 60;
+    let cut = bytes.len() > LONGEST;
+    let text: String = String::from_utf8_lossy(&bytes[..bytes.len().min(LONGEST)])
+        .chars()
+        .map(|c| if c.is_control() && c != '\t' { '·' } else { c })
+        .collect();
+    format!("{}{}", text.trim(), if cut { "…" } else { "" })
+}
+
+/// Collects faces; stays with plain triangles as long as there is nothing else.
+struct Faces {
+    triangles: Vec<[u32; 3]>,
+    corners: Vec<u32>,
+    ends: Vec<usize>,
+    mixed: bool,
+}
+
+impl Faces {
+    fn with_capacity(count: usize) -> Self {
+        Self { triangles: Vec::with_capacity(count), corners: Vec::new(), ends: Vec::new(), mixed: false }
+    }
+
+    #[inline]
+    fn triangle(&mut self, t: [u32; 3]) {
+        if self.mixed { self.polygon(&t) } else { self.triangles.push(t) }
+    }
+
+    fn polygon(&mut self, corners: &[u32]) {
+        if !std::mem::replace(&mut self.mixed, true) {
+            let triangles = std::mem::take(&mut self.triangles);
+            self.ends = (1..=triangles.len()).map(|i| 3 * i).collect();
+            self.corners = triangles.into_flattened();
+        }
+        self.corners.extend_from_slice(corners);
+        self.ends.push(self.corners.len());
+    }
+
+    fn len(&self) -> usize {
+        if self.mixed { self.ends.len() } else { self.triangles.len() }
+    }
+
+    fn finish(self) -> RawFaces {
+        if self.mixed {
+            RawFaces::Polygons { corners: self.corners, ends: self.ends }
+        } else {
+            RawFaces::Triangles(self.triangles)
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! What the report for people says about existing ground.
+
+use super::{NAME, NUMBER, Page, printable};
+use crate::model::Slope;
+use crate::report::{
+    BulkingFigures, CutFillFigures, DepthPlace, Depths, PadRow, Report, SlopeFigures, SlopeRange, StationRow, Volumes,
+};
+use std::fmt::Write as _;
+
+/// The slope as a section perpendicular to the line shows it.
+pub(super) fn section_slope(page: &mut Page<'_>, range: SlopeRange) {
+    let short = |slope: SlopeFigures| Slope::from_ratio(slope.ratio).map_or_else(|| slope.ratio.to_string(), Slope::short);
+    let (min, max) = (short(range.min), short(range.max));
+    let range = if min == max { max } else { format!("{min} to {max}") };
+    page.words("  in section", &format!("{range} (perpendicular to the line)"));
+}
+
+/// Existing ground, finished ground, daylight line.
+pub(super) fn terrain(page: &mut Page<'_>, report: &Report) {
+    if let Some(terrain) = report.terrain {
+        page.section("Existing ground");
+        page.count("vertices", terrain.vertices);
+        page.count("triangles", terrain.triangles);
+        page.count("  under the works", terrain.triangles_used);
+        page.length("lowest", terrain.z_min);
+        page.length("highest", terrain.z_max);
+        if let Some(areas) = report.areas {
+            page.area("area of cut", areas.cut);
+            page.area("area of fill", areas.fill);
+            page.area("unaffected", areas.unaffected);
+        }
+    }
+    if let Some(daylight) = report.daylight {
+        page.section("Daylight line (lengths in plan)");
+        page.count("closed loops", daylight.loops);
+        page.length("length", daylight.length);
+        page.length("  of cut", daylight.cut_length);
+        page.length("  of fill", daylight.fill_length);
+        if daylight.open_length > 0.0 {
+            page.length("open at the edge", daylight.open_length);
+        }
+    }
+    if let Some(finished) = report.finished {
+        page.section("Finished ground");
+        page.count("vertices", finished.vertices);
+        page.count("triangles", finished.triangles);
+    }
+}
+
+/// Parts and figures from sections, cut beside fill.
+pub(super) fn volumes(page: &mut Page<'_>, volumes: &Volumes) {
+    let mut rows: Vec<(&str, CutFillFigures)> = Vec::new();
+    if let Some(parts) = volumes.parts {
+        rows.extend([("platform", parts.platform), ("slopes", parts.slopes)]);
+    }
+    rows.extend(volumes.end_area.map(|figures| ("average end area", figures)));
+    rows.extend(volumes.prismoidal.map(|figures| ("prismoidal", figures)));
+    if !rows.is_empty() {
+        let _ = writeln!(page.text, "  {:NAME$}{:>NUMBER$}{:>NUMBER$}", "", "cut", "fill");
+    }
+    for (name, figures) in rows {
+        let _ = writeln!(page.text, "  {name:NAME$}{:>NUMBER$.2}{:>NUMBER$.2} {}³", figures.cut, figures.fill, page.unit);
+    }
+}
+
+/// What becomes of cut and fill when soil changes its volume.
+pub(super) fn bulking(page: &mut Page<'_>, soil: BulkingFigures) {
+    /// Digits that a share is typed with.
+    const DIGITS: f64 = 1e10;
+    let percent = |share: f64| (100.0 * share * DIGITS).round() / DIGITS;
+    page.section(&format!("Soil (swell {} %, shrink {} %)", percent(soil.swell), percent(soil.shrink)));
+    page.volume("cut in the ground", soil.cut_bank, " (bank)");
+    page.volume("  dug", soil.cut_loose, " (loose)");
+    page.volume("  compacted", soil.cut_compacted, "");
+    page.volume("fill compacted", soil.fill_compacted, "");
+    page.volume("  needed for it", soil.fill_bank, " (bank)");
+    page.volume("  dug", soil.fill_loose, " (loose)");
+    page.volume("net in the ground", soil.net_bank, &format!(" (bank) {}", soil.balance.word()));
+}
+
+/// The places of the greatest depths.
+pub(super) fn depths(page: &mut Page<'_>, depths: &Depths) {
+    for (name, depth, place) in [
+        ("deepest cut", depths.cut_max, depths.cut_max_at.as_ref()),
+        ("deepest fill", depths.fill_max, depths.fill_max_at.as_ref()),
+    ] {
+        page.length(name, depth);
+        if let Some(place) = place {
+            page.words("  at", &self::place(place));
+        }
+    }
+}
+
+fn place(place: &DepthPlace) -> String {
+    let mut text = format!("{:.3}, {:.3}", place.x, place.y);
+    if let Some(z) = place.z {
+        let _ = write!(text, ", {z:.3}");
+    }
+    if let (Some(chain), Some(station)) = (&place.chain, place.station) {
+        let _ = write!(text, " ({chain}, station {station:.3})");
+    }
+    text
+}
+
+/// The table of stations, all of it: whoever asks for stations wants them.
+pub(super) fn stations(page: &mut Page<'_>, rows: &[StationRow], pads: Option<PadRow>, volumes: Option<&Volumes>) {
+    page.section(&format!("Stations (volumes in {}³; running net: cut − fill from the beginning of the line)", page.unit));
+    let compacted = rows.iter().any(|row| row.net_cumulative_compacted.is_some());
+    let sections = rows.iter().any(|row| row.sections.is_some());
+    let mut groups = vec![Group::new("", &["from", "to"]), Group::new("exact", &["cut", "fill"])];
+    groups.push(Group::new("running net", if compacted { &["in bank", "compacted"] } else { &[""] }));
+    if sections {
+        groups.extend([Group::new("average end area", &["cut", "fill"]), Group::new("prismoidal", &["cut", "fill"])]);
+    }
+    let of = |cut: f64, fill: f64| vec![decimals(cut), decimals(fill)];
+    let cells = |row: &StationRow| {
+        let mut cells = of(row.from, row.to);
+        cells.extend(of(row.cut, row.fill));
+        cells.push(decimals(row.net_cumulative));
+        cells.extend(row.net_cumulative_compacted.map(decimals));
+        if let Some(s) = row.sections {
+            cells.extend(of(s.average_end_area.cut, s.average_end_area.fill));
+            cells.extend(of(s.prismoidal.cut, s.prismoidal.fill));
+        }
+        cells
+    };
+    let mut table: Vec<Vec<String>> = rows.iter().map(cells).collect();
+    let blank = |count: usize| vec![String::new(); count];
+    if let Some(pads) = pads {
+        table.push([blank(2), of(pads.cut, pads.fill)].concat());
+    }
+    if let Some(v) = volumes {
+        let ends = [v.end_area, v.prismoidal].into_iter().flatten().flat_map(|f| of(f.cut, f.fill));
+        table.push([blank(2), of(v.cut, v.fill), blank(if compacted { 2 } else { 1 }), ends.collect()].concat());
+    }
+    let mut column = 0;
+    for group in &mut groups {
+        for width in &mut group.widths {
+            *width = table.iter().filter_map(|cells| cells.get(column)).map(String::len).fold(*width, usize::max);
+            column += 1;
+        }
+        // A title that is wider than its columns widens the first.
+        group.widths[0] += group.title.len().saturating_sub(group.width());
+    }
+    let widths: Vec<usize> = groups.iter().flat_map(|group| group.widths.clone()).collect();
+    let line = |cells: &[String]| {
+        let cells = cells.iter().zip(&widths).map(|(cell, &width)| format!("  {cell:>width$}"));
+        cells.collect::<String>().trim_end().to_owned()
+    };
+    let titles: String = groups.iter().map(|group| format!("  {:>1$}", group.title, group.width())).collect();
+    let names: Vec<String> = groups.iter().flat_map(|group| group.names).map(|name| (*name).to_owned()).collect();
+    let _ = writeln!(page.text, "{}\n{}", titles.trim_end(), line(&names));
+    // Names are needed only to tell lines apart.
+    let many = rows.iter().any(|row| row.chain != rows[0].chain);
+    let mut chain = None;
+    for (row, cells) in rows.iter().zip(&table) {
+        if many && chain.replace(&row.chain) != Some(&row.chain) {
+            let _ = writeln!(page.text, "  {}", printable(&row.chain));
+        }
+        let _ = writeln!(page.text, "{}", line(cells));
+    }
+    let labels = [pads.map(|_| "no station"), volumes.map(|_| "total")];
+    for (label, cells) in labels.into_iter().flatten().zip(&table[rows.len()..]) {
+        let text = line(cells);
+        let width = groups[0].width();
+        let _ = writeln!(page.text, "  {label:width$}{}", text.get(width + 2..).unwrap_or_default());
+    }
+}
+
+/// Columns of a table that belong together.
+struct Group {
+    title: &'static str,
+    names: &'static [&'static str],
+    widths: Vec<usize>,
+}
+
+impl Group {
+    fn new(title: &'static str, names: &'static [&'static str]) -> Self {
+        Self { title, names, widths: names.iter().map(|name| name.len().max(LEAST_COLUMN)).collect() }
+    }
+
+    /// Width with the gaps between the columns.
+    fn width(&self) -> usize {
+        self.widths.iter().sum::<usize>() + 2 * (self.widths.len() - 1)
+    }
+}
+
+/// Least width of a column of a table.
+const LEAST_COLUMN: usize = 6;
+
+/// Two decimals, and no sign before nought.
+fn decimals(value: f64) -> String {
+    let text = format!("{value:.2}");
+    if text == "-0.00" { "0.00".to_owned() } else { text }
+}

@@ -1,0 +1,78 @@
+//! What the coordinates of ground say by themselves: box, precision, degrees.
+
+use super::corners::Corners;
+use super::place::{defect, short};
+use crate::model::{Defects, Note};
+use crate::read::{CoordinateKind, Source};
+use crate::validate::{self, INPUT_LIMIT};
+use glam::DVec3;
+
+/// Coordinates that are all of single precision are told of if its steps are at least this wide, in the length unit: finer ones
+/// are below what is surveyed.
+const COARSE: f64 = 1e-3;
+
+/// Bits of a double that are zero in a number of single precision: 52 − 23 of its fraction.
+const BEYOND_SINGLE: u64 = (1 << 29) - 1;
+
+/// Extents and precision of the vertices that triangles use (of all points, where there are no triangles).
+pub(super) struct Coordinates {
+    /// Lower corner of the box, in world coordinates.
+    pub(super) lo: DVec3,
+    /// Upper corner.
+    pub(super) hi: DVec3,
+    /// Whether all plan coordinates are of single precision, and whether any is not whole.
+    single: bool,
+    fractions: bool,
+}
+
+impl Coordinates {
+    pub(super) fn new(vertices: &[DVec3], corners: Option<&Corners>) -> Self {
+        let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let mut bits = 0;
+        let mut fractions = false;
+        for (i, v) in vertices.iter().enumerate() {
+            if corners.is_none_or(|corners| corners.used(i)) {
+                lo = lo.min(*v);
+                hi = hi.max(*v);
+                bits |= v.x.to_bits() | v.y.to_bits();
+                fractions |= v.x.fract() != 0.0 || v.y.fract() != 0.0;
+            }
+        }
+        Self { lo, hi, single: bits & BEYOND_SINGLE == 0, fractions }
+    }
+
+    pub(super) fn check(&self, source: &Source, defects: &mut Defects, notes: &mut Vec<Note>) {
+        let (lo, hi) = (self.lo, self.hi);
+        let largest = lo.abs().max(hi.abs()).max_element();
+        if !largest.is_finite() {
+            // No vertex is used: told later.
+            return;
+        }
+        if largest > INPUT_LIMIT {
+            let figures = format!("x {} to {}, y {} to {}, z {} to {}", lo.x, hi.x, lo.y, hi.y, lo.z, hi.z);
+            let help = "correct the coordinates; a marker for missing heights must not be a vertex";
+            let what = "coordinates of the ground are beyond 10⁹";
+            defects.extend(defect("ground-too-large", what, source.label.clone(), figures, help));
+            return;
+        }
+        match validate::degrees(source, (lo.truncate(), hi.truncate())) {
+            validate::Verdict::Lengths => {}
+            validate::Verdict::Refused(defect) => defects.push(defect.code, || defect),
+            validate::Verdict::Noted(note) => notes.push(note),
+        }
+        // The widest step of single precision: 2⁻²³ of the power of two at or below the largest plan coordinate.
+        let plan = lo.truncate().abs().max(hi.truncate().abs()).max_element();
+        let step = 2.0_f64.powi(plan.log2().floor() as i32 - 23);
+        // Whole numbers are single by themselves as long as its step is not wider than one.
+        let telling = self.fractions || step > 1.0;
+        if source.kind != CoordinateKind::Degrees && self.single && telling && step >= COARSE {
+            let message = format!(
+                "all plan coordinates of the ground are of single precision, in steps of up to {} at {}: they were rounded \
+                 before they were written. Export the ground with double precision, or nearer to the origin",
+                short(step),
+                short(plan)
+            );
+            notes.push(Note::new("ground-single-precision", message));
+        }
+    }
+}
