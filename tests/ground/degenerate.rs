@@ -48,7 +48,7 @@ fn line_along_ground_edges() {
     let built = build(&site, "");
     built.figures().roughly(&sample(&site, [[-45.0, -20.0], [45.0, 20.0]], 900), 2e-3, "brute force");
     let finer = Site { ground: site.ground.refined(), ..site };
-    build(&finer, "").figures().near(&built.figures(), 1e-9, "finer ground");
+    build(&finer, "").figures().near(&built.figures(), 1e-6, "finer ground");
 }
 
 /// The line passes through the ground exactly at its middle vertex, which lies on a vertex, an edge or a face of the ground.

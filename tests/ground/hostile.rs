@@ -19,7 +19,7 @@ fn refused(folder: &Folder, arguments: &str, codes: &[i32], words: &[&str]) -> S
     let before = folder.files();
     let Run { code, stderr } = folder.run(&format!("{BUILD} {arguments}"));
     assert!(codes.contains(&code), "{arguments}: code {code}\n{stderr}");
-    assert!(stderr.contains("error: ") && stderr.contains("-->") && stderr.contains("help: "), "{arguments}:\n{stderr}");
+    assert!(stderr.contains("error: ") && stderr.contains("-->") && stderr.contains("\n   = "), "{arguments}:\n{stderr}");
     for word in words {
         let found = word.split('|').any(|w| stderr.to_lowercase().contains(w));
         assert!(found, "{arguments}: no `{word}` in\n{stderr}");
@@ -56,12 +56,12 @@ fn holes() {
     for (x, harm) in [(0.0, true), (11.0, true), (30.0, false)] {
         let site = site();
         let off = |t: [[f64; 3]; 3]| t.iter().all(|v| (v[0] - 641_000.0 - x).abs() < 5.1 && (v[1] - 5_203_000.0).abs() < 5.1);
-        let folder = Folder::of(&site).with("hole.obj", site.ground.only(|t| !off(t)).obj());
+        let folder = Folder::of(&site).with("g.obj", site.ground.only(|t| !off(t)).obj());
         if harm {
-            let told = refused(&folder, "--terrain hole.obj", &[1], &["hole.obj", "edge|hole|gap|covered|ends|no ground"]);
+            let told = refused(&folder, "--terrain g.obj", &[1], &["g.obj", "edge|hole|gap|covered|ends|no ground"]);
             assert!(near(&told, 641_000.0 + x, 5_203_000.0), "no place in\n{told}");
         } else {
-            folder.run(&format!("{BUILD} --terrain hole.obj")).done();
+            folder.run(&format!("{BUILD} --terrain g.obj")).done();
         }
     }
 }
@@ -72,10 +72,10 @@ fn ground_smaller_than_the_reach() {
     let site = site();
     // Slopes end about 6 beyond the pad, at 14; the ground ends at 10.
     let small = site.ground.only(|t| t.iter().all(|v| v[0] < 641_010.1));
-    let folder = Folder::of(&site).with("small.obj", small.obj());
-    let told = refused(&folder, "--terrain small.obj", &[1], &["small.obj|ground", "--allow-open"]);
+    let folder = Folder::of(&site).with("g.obj", small.obj());
+    let told = refused(&folder, "--terrain g.obj", &[1], &["g.obj", "--allow-open"]);
     assert!(near(&told, 641_010.0, 5_203_000.0), "no place in\n{told}");
-    folder.run(&format!("{BUILD} --terrain small.obj --allow-open")).done();
+    folder.run(&format!("{BUILD} --terrain g.obj --allow-open")).done();
     let report: serde_json::Value = serde_json::from_str(&folder.read("r.json")).unwrap();
     assert_eq!(report["volumes"]["complete"], false, "{report}");
     assert!(report["daylight"]["open_length"].as_f64().unwrap() > 1.0, "{report}");
@@ -91,8 +91,8 @@ fn ground_smaller_than_the_reach() {
 fn line_partly_beside_the_ground() {
     let site = site();
     let small = site.ground.only(|t| t.iter().all(|v| v[0] < 641_000.1));
-    let folder = Folder::of(&site).with("small.obj", small.obj());
-    let told = refused(&folder, "--terrain small.obj", &[1], &["small.obj|ground"]);
+    let folder = Folder::of(&site).with("g.obj", small.obj());
+    let told = refused(&folder, "--terrain g.obj", &[1], &["g.obj"]);
     assert!(near(&told, 641_004.0, 5_203_000.0), "no place in\n{told}");
 }
 
@@ -101,17 +101,17 @@ fn line_beside_the_ground() {
     let site = site();
     let moved = site.ground.map(|[x, y, z]| [x + 300.0, y, z]);
     // Both boxes.
-    refused_ground(moved.obj(), "beside.obj", &[1], &["640992", "641260", "overlap|apart|beside|meet"]);
+    refused_ground(moved.obj(), "g.obj", &[1], &["640992", "641260", "overlap|apart|beside|meet"]);
     let swapped = site.ground.map(|[x, y, z]| [y, x, z]);
-    refused_ground(swapped.obj(), "swapped.obj", &[1], &["swap|exchang|northing"]);
+    refused_ground(swapped.obj(), "g.obj", &[1], &["swap|exchang|northing"]);
 }
 
 /// Line in metres, ground in feet, and the other way round.
 #[test]
 fn feet_and_metres() {
     let site = site();
-    for (name, unit) in [("feet.obj", 1.0 / 0.3048), ("survey.obj", 3937.0 / 1200.0), ("metres.obj", 0.3048)] {
-        refused_ground(site.ground.map(|p| p.map(|v| v * unit)).obj(), name, &[1], &["feet"]);
+    for unit in [1.0 / 0.3048, 3937.0 / 1200.0, 0.3048] {
+        refused_ground(site.ground.map(|p| p.map(|v| v * unit)).obj(), "g.obj", &[1], &["feet", "metre"]);
     }
 }
 
@@ -139,7 +139,7 @@ fn files_of_another_kind() {
     refused(&folder, "--terrain line.geojson", &[2, 3], &["line.geojson"]);
     refused(&folder, "--terrain missing.obj", &[3], &["missing.obj"]);
     let folder = folder.with("ground.tif", "II*\0").with("ground", &obj);
-    refused(&folder, "--terrain ground.tif", &[2, 3], &[".tif", ".obj", ".ply"]);
+    refused(&folder, "--terrain ground.tif", &[2, 3], &[".tif", ".obj|tiff"]);
     refused(&folder, "--terrain ground", &[2, 3], &["ending|extension"]);
 }
 
@@ -214,25 +214,34 @@ fn not_single_valued() {
     };
     refused_ground(
         with([[-3.0, -3.0, 605.0], [5.0, -3.0, 605.0], [0.0, 4.0, 605.0]]),
-        "above.obj",
+        "g.obj",
         &[1, 3],
         &["overlap|overhang|twice|single|above"],
     );
     refused_ground(
         with([[-3.0, 1.0, 600.0], [5.0, 1.0, 600.0], [0.0, 1.0, 606.0]]),
-        "wall.obj",
+        "g.obj",
         &[1, 3],
         &["vertical|upright|steep"],
     );
 }
 
-/// Without triangles there is no ground.
+/// Points without triangles are triangulated, which is said; no points are no ground.
 #[test]
 fn no_triangles() {
     let Ground { vertices, .. } = site().ground;
-    let points = Ground { vertices, triangles: Vec::new() };
-    refused_ground(points.ply(), "points.ply", &[1, 3], &["triangle|face"]);
-    refused_ground(points.obj(), "points.obj", &[1, 3], &["triangle|face"]);
+    let points = |vertices: &[[f64; 3]]| Ground { vertices: vertices.to_vec(), triangles: Vec::new() };
+    let folder = Folder::of(&site()).with("points.ply", points(&vertices).ply()).with("points.obj", points(&vertices).obj());
+    for name in ["points.ply", "points.obj"] {
+        let run = folder.run(&format!("{BUILD} --terrain {name}")).done();
+        assert!(run.stderr.contains("note[ground-triangulated]"), "{}", run.stderr);
+    }
+    for few in [0, 1, 2] {
+        refused_ground(points(&vertices[..few]).ply(), "few.ply", &[1, 3], &[]);
+        refused_ground(points(&vertices[..few]).obj(), "few.obj", &[1, 3], &[]);
+    }
+    // All on one line.
+    refused_ground(points(&vertices[..10]).obj(), "row.obj", &[1, 3], &[]);
 }
 
 /// An output that cannot be written leaves the others unwritten.

@@ -24,8 +24,12 @@ fn others(built: &Built) -> Vec<(&'static str, f64, i32)> {
     .to_vec()
 }
 
+/// How many chords a cone has depends on how far slopes might reach, which is judged on the ground as it stands. Chords within 1e-5
+/// keep figures within the bar.
 fn sites() -> Vec<(&'static str, Site)> {
-    vec![("road", road(2, 9)), ("other road", road(6, 12)), ("pad", pad(3, 6, 0.3)), ("pad on level ground", pad(4, 8, 0.0))]
+    let all =
+        [("road", road(2, 9)), ("other road", road(6, 12)), ("pad", pad(3, 6, 0.3)), ("pad on level ground", pad(4, 8, 0.0))];
+    all.map(|(name, site)| (name, site.tolerance(1e-5))).to_vec()
 }
 
 #[track_caller]
@@ -97,10 +101,14 @@ fn numbering_ground_otherwise() {
     });
 }
 
-/// Every triangle in six pieces: the same ground up to the last digits of heights.
+/// Every triangle in six pieces: the same ground up to the last digits of heights. Without cones, the same figures to as many.
 #[test]
 fn splitting_ground() {
-    unchanged(1e-9, |site| Site { ground: site.ground.refined(), ..site.clone() });
+    unchanged(1e-6, |site| Site { ground: site.ground.refined(), ..site.clone() });
+    for site in [crate::wedges::dam_of_a_kind(), crate::wedges::dam_of_a_kind().upside_down()] {
+        let finer = Site { ground: site.ground.refined().refined(), ..site.clone() };
+        same("dam", &build(&site, ""), &build(&finer, ""), 1e-9);
+    }
 }
 
 /// Upside down, cut is fill to the last digit: heights are only ever negated.
@@ -137,7 +145,7 @@ fn formats_of_the_ground() {
         let folder = crate::run::Folder::of(&site).with("ground.ply", site.ground.ply()).with("turned.obj", turned.obj());
         for file in ["ground.ply", "turned.obj"] {
             let arguments = format!("line.geojson --terrain {file} {}", crate::run::options(&site));
-            assert_eq!(crate::run::build_in(&folder, &arguments).figures(), expected, "{name}, {file}");
+            crate::run::build_in(&folder, &arguments).figures().near(&expected, 1e-12, &format!("{name}, {file}"));
         }
     }
 }

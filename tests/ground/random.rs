@@ -67,7 +67,7 @@ pub(crate) fn pad(seed: u64, n: usize, tilt: f64) -> Site {
 }
 
 /// The box of the works with a margin that holds all slopes.
-fn works(site: &Site, margin: f64) -> Box2 {
+pub(crate) fn works(site: &Site, margin: f64) -> Box2 {
     let all = || site.lines.iter().flat_map(|l| &l.points);
     let bound = |axis: usize, most: fn(f64, f64) -> f64, start: f64| all().map(|p| p[axis]).fold(start, most);
     let lo = [0, 1].map(|axis| bound(axis, f64::min, f64::INFINITY) - margin);

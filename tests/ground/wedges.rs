@@ -34,6 +34,12 @@ fn dam_site(sides: [f64; 2], d: f64, w: f64, k: f64, shift: f64) -> Site {
     Site::new(vec![line], k, ground)
 }
 
+/// A dam with a crest across a valley with unequal sides.
+pub(crate) fn dam_of_a_kind() -> Site {
+    let (sides, d, w, k, shift) = DAMS[2];
+    dam_site(sides, d, w, k, shift)
+}
+
 const DAMS: [([f64; 2], f64, f64, f64, f64); 5] = [
     ([0.25, 0.25], 2.0, 0.0, 0.5, 0.0),
     ([0.25, 0.25], 2.0, 0.0, 0.5, 0.7),
