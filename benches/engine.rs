@@ -35,7 +35,19 @@ fn main() {
     println!("milliseconds; slope 1V:2H, tolerance 0.01, to 10 below the lowest vertex");
     println!(
         "{:>14} {:>7} {:>7} {:>7} {:>9} {:>7} {:>7} {:>8} {:>10} {:>7} {:>9} {:>9} {:>6}",
-        "case", "read", "line", "index", "creases", "mesh", "check", "total", "triangles", "M/s", "PLY MB/s", "OBJ MB/s", "MB"
+        "case",
+        "read",
+        "line",
+        "index",
+        "creases",
+        "mesh",
+        "certificate",
+        "total",
+        "triangles",
+        "M/s",
+        "PLY MB/s",
+        "OBJ MB/s",
+        "MB"
     );
     let this = std::env::current_exe().expect("own path");
     for (name, count) in CASES {
@@ -109,6 +121,8 @@ fn run(name: &str, count: usize) {
         extent: Extent::Elevation(line.elevation_range().0 - 10.0),
         interval: None,
         tolerance: 0.01,
+        companion: None,
+        frame: None,
     };
     let stages = Stages::default();
     let start = Instant::now();
@@ -136,7 +150,7 @@ fn run(name: &str, count: usize) {
         ms(stage(&["index"])),
         ms(stage(&["creases"])),
         ms(stage(&["mesh"])),
-        ms(stage(&["check", "volumes"])),
+        ms(stage(&["certificate", "volumes"])),
         ms(end - start),
         triangles,
         triangles as f64 / (end - start).as_secs_f64() / 1e6,

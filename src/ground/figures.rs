@@ -10,6 +10,7 @@ use super::stations::Stations;
 use super::trimmed::Trimmed;
 use super::works::{Border, Works};
 use super::{Axis, GroundError, SectionFigures, Tallied};
+use crate::kernel::orientation::{Turn, turn};
 use crate::kernel::sum::Sum;
 use crate::mesh::check::{self, HalfEdges, Soundness};
 use crate::mesh::{polygon, volume};
@@ -107,8 +108,8 @@ pub(crate) fn ground(found: &Found) -> Result<Ground, GroundError> {
     let (error_bound, simplified) = error_bound(found, &design);
     Ok(Ground {
         finished,
+        levels: levels(found, &lines),
         lines,
-        levels: found.shape.levels.clone(),
         daylight: daylight(found),
         complete: found.works.open.is_empty(),
         tallied: found.fed.tallied.clone(),
@@ -122,6 +123,12 @@ pub(crate) fn ground(found: &Found) -> Result<Ground, GroundError> {
         ground_used: found.patch.triangles.len(),
         design,
     })
+}
+
+/// The levels with a curve within the works, from the top down.
+fn levels(found: &Found, lines: &[LineFeature]) -> Vec<f64> {
+    let cut: Vec<f64> = lines.iter().filter_map(|line| line.elevation).collect();
+    found.shape.levels.iter().copied().filter(|level| cut.contains(level)).collect()
 }
 
 /// Mesh numbers in the order of first use.
@@ -225,8 +232,17 @@ fn certificate(found: &Found, design: &Tin, soundness: &Soundness) -> Result<Cer
 
 fn flaw(soundness: &Soundness, tin: &Tin) -> Option<String> {
     if !soundness.manifold() {
+        let plan = |t: usize| tin.corners(t).map(|p| p.truncate());
+        let turned = (0..tin.triangles.len()).find(|&t| {
+            let [a, b, c] = plan(t);
+            turn(a, b, c) != Turn::Left
+        });
+        let near = turned.map_or(String::new(), |t| {
+            let at = tin.world(tin.triangles[t][0] as usize);
+            format!(" (first near ({:.3}, {:.3}))", at.x, at.y)
+        });
         return Some(format!(
-            "{} triangles turned over or degenerate, {} edges used twice, {} unused vertices",
+            "{} triangles turned over or degenerate{near}, {} edges used twice, {} unused vertices",
             soundness.turned, soundness.repeated_edges, soundness.unused
         ));
     }

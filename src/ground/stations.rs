@@ -4,7 +4,7 @@ use super::Axis;
 use glam::DVec2;
 use std::fmt;
 
-/// Most intervals over all axes. Each becomes a row of the report; a road of 1000 km has as many at 10 m.
+/// Most breaks inside the axes, all together. Each begins a row of the report; a road of 1000 km has as many at 10 m.
 pub const MOST_STATIONS: usize = 100_000;
 
 /// A last interval shorter than this, in the length unit, is rounding of the length: it belongs to the one before.
@@ -22,7 +22,7 @@ pub struct Stations {
     breaks: Vec<Vec<f64>>,
 }
 
-/// A spacing that would give more than [`MOST_STATIONS`] intervals.
+/// A spacing that would give more than [`MOST_STATIONS`] breaks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TooManyStations {
     /// The spacing asked for.
@@ -39,7 +39,7 @@ impl fmt::Display for TooManyStations {
         write!(
             f,
             "there would be too many stations\n  --> --stations {}\n   = axes of length {:.3} in all; at most {MOST_STATIONS} \
-             intervals\n   = help: give a spacing of {} or more",
+             breaks\n   = help: give a spacing of {} or more",
             self.spacing,
             self.length,
             (least / digit).ceil() * digit
@@ -59,8 +59,9 @@ impl Stations {
         let spacing = spacing.filter(|d| *d > 0.0);
         if let Some(spacing) = spacing {
             let length: f64 = axes.iter().map(|axis| axis.length).sum();
-            let count: f64 = axes.iter().map(|axis| (axis.length / spacing).ceil()).sum();
-            if count > MOST_STATIONS as f64 || count.is_nan() {
+            let inside = |axis: &Axis| if axis.length > spacing { (axis.length / spacing).ceil() - 1.0 } else { 0.0 };
+            let count: f64 = axes.iter().map(inside).sum();
+            if count > MOST_STATIONS as f64 {
                 return Err(TooManyStations { spacing, length });
             }
         }
@@ -147,10 +148,14 @@ mod tests {
         assert_eq!(
             error.to_string(),
             "there would be too many stations\n  --> --stations 0.001\n   = axes of length 2000.000 in all; at most 100000 \
-             intervals\n   = help: give a spacing of 0.04 or more"
+             breaks\n   = help: give a spacing of 0.04 or more"
         );
         assert!(Stations::new(vec![straight_axis(1000.0); 2], Some(0.04)).is_ok());
-        assert!(Stations::new(vec![straight_axis(f64::NAN)], Some(1.0)).is_err());
+        // Lines without length, or with none that is a number, have one interval.
+        for length in [0.0, f64::NAN] {
+            assert_eq!(Stations::new(vec![straight_axis(length)], Some(1.0)).unwrap().breaks(0).len(), 2);
+        }
+        assert!(Stations::new(vec![straight_axis(f64::INFINITY)], Some(1.0)).is_err());
         assert!(Stations::new(vec![straight_axis(1.0)], Some(5e-324)).is_err());
     }
 

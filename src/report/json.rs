@@ -58,7 +58,10 @@ mod tests {
     #[test]
     fn keys_that_do_not_apply_are_left_out() {
         let text = json(&least());
-        for key in ["crs", "cut\":", "volumes", "depths", "null"] {
+        for key in [
+            "crs", "cut\":", "volumes", "depths", "areas", "daylight", "stations", "pads", "terrain", "finished", "section",
+            "null",
+        ] {
             assert!(!text.contains(key), "{key} in {text}");
         }
         assert!(text.ends_with("}\n"));

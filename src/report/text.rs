@@ -56,11 +56,11 @@ pub fn render(report: &Report) -> String {
         ExtentKind::Elevation => "to elevation",
         ExtentKind::Height => "height",
         ExtentKind::Distance => "plan distance",
-        ExtentKind::Ground => "to existing ground",
+        ExtentKind::Ground => "slopes end",
     };
     match report.extent.value {
         Some(value) => page.length(kind, value),
-        None => page.words(kind, "where they meet it"),
+        None => page.words(kind, "at the existing ground"),
     }
     if let (Some(first), Some(last)) = (report.levels.first(), report.levels.last()) {
         page.words("levels", &format!("{} from {first} to {last}", report.levels.len()));

@@ -233,3 +233,33 @@ fn names_from_files_cannot_drive_the_terminal() {
     assert_eq!(run.code, 1, "{run:?}");
     assert!(!run.stderr.contains('\u{1b}'), "{:?}", run.stderr);
 }
+
+#[test]
+fn stations_and_soil_need_ground() {
+    refused(
+        "build road.geojson --slope 1:2 --stations 20 --swell 25% --shrink 10%",
+        2,
+        "error: `--stations` needs existing ground\n  --> --stations 20\n   = help: give the ground with `--terrain`\n\
+         error: `--swell` needs existing ground\n  --> --swell 25%\n   = help: give the ground with `--terrain`\n\
+         error: `--shrink` needs existing ground\n  --> --shrink 10%\n   = help: give the ground with `--terrain`",
+    );
+}
+
+#[test]
+fn soil() {
+    let site = Site::new();
+    for (arguments, message) in [
+        (
+            "--swell 1.25",
+            "`1.25` can be read in two ways\n  --> --swell 1.25\n   = help: write `25%` if 1.25 is a factor, `125%` if it is a share",
+        ),
+        ("--swell -5%", "`-5%` is out of range\n  --> --swell -5%\n   = help: give 0% to 200%"),
+        ("--shrink 100%", "`100%` is out of range\n  --> --shrink 100%\n   = help: give -100% to 90%"),
+        ("--stations 0", "`0` is too small\n  --> --stations 0\n   = help: give 0.000001 or more"),
+    ] {
+        let option = arguments.split(' ').next().unwrap();
+        let ground =
+            format!("error: `{option}` needs existing ground\n  --> {arguments}\n   = help: give the ground with `--terrain`");
+        site.run(&format!("build road.geojson --slope 1:2 {arguments}")).refused(2, &format!("error: {message}\n{ground}"));
+    }
+}
