@@ -14,6 +14,7 @@ mod finished;
 mod fixtures;
 mod hostile;
 mod invariance;
+mod lattice;
 mod oracle;
 mod planar;
 mod random;
