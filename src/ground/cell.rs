@@ -6,7 +6,7 @@
 
 use super::patch::{NONE, Patch};
 use super::shape::Shape;
-use crate::kernel::orientation::{Turn, turn};
+use crate::kernel::orientation::{self, Turn, turn};
 use glam::{DVec2, DVec3};
 
 /// Name of a point of the common refinement. Edges are named by their ends, the lower first.
@@ -38,6 +38,10 @@ pub(crate) struct Corner {
     pub(crate) h: f64,
     /// The vertex of the design here, [`NONE`] if there is none.
     pub(crate) vertex: u32,
+    /// Sides of the design triangle it lies on, one bit each.
+    pub(crate) on_design: u8,
+    /// Sides of the ground triangle it lies on, one bit each.
+    pub(crate) on_ground: u8,
     /// The side from this corner to the next.
     pub(crate) side: Side,
 }
@@ -214,7 +218,12 @@ impl<'a> Pair<'a> {
             Raw::Cross(i, k) => self.crossing(i, k),
         };
         let vertex = if let Raw::Design(i) = raw { self.a[i as usize] } else { NONE };
-        Corner { label, at, z, h, vertex, side }
+        let (on_design, on_ground) = match raw {
+            Raw::Design(i) => (around(i), zeros(self.design[i as usize])),
+            Raw::Ground(j) => (zeros(self.ground[j as usize]), around(j)),
+            Raw::Cross(i, k) => (1 << i, 1 << k),
+        };
+        Corner { label, at, z, h, vertex, on_design, on_ground, side }
     }
 
     fn design_corner(&self, i: u8) -> (Label, DVec2, f64, f64) {
@@ -254,12 +263,26 @@ impl<'a> Pair<'a> {
         let (design, ground) = (edge(self.a, i), edge(self.b, k));
         let [p, q] = design.map(|v| self.shape.vertices[v as usize]);
         let [r, s] = ground.map(|v| self.patch.vertices[v as usize]);
-        let (d, e, w) = ((q - p).truncate(), (s - r).truncate(), (r - p).truncate());
-        let den = d.perp_dot(e);
-        let (t, u) = ((w.perp_dot(e) / den).clamp(0.0, 1.0), (w.perp_dot(d) / den).clamp(0.0, 1.0));
+        let plan = |p: DVec3| p.truncate();
+        let t = orientation::crossing([plan(p), plan(q)], [plan(r), plan(s)]);
+        let at = plan(p).lerp(plan(q), t);
         let z = p.z + t * (q.z - p.z);
-        (Label::Cross(design, ground), p.truncate() + d * t, z, z - (r.z + u * (s.z - r.z)))
+        // The place on the ground's edge follows from the one on the design's: were it found by itself, the two would be far
+        // apart on edges that are all but parallel.
+        let along = plan(s) - plan(r);
+        let u = ((at - plan(r)).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+        (Label::Cross(design, ground), at, z, z - (r.z + u * (s.z - r.z)))
     }
+}
+
+/// The two sides that meet in a corner, as bits.
+fn around(corner: u8) -> u8 {
+    1 << corner | 1 << ((corner + 2) % 3)
+}
+
+/// The sides on which a corner lies by its signs, as bits.
+fn zeros(signs: [i8; 3]) -> u8 {
+    (0..3).filter(|&k| signs[k] == 0).map(|k| 1 << k).sum()
 }
 
 /// Signs of the corners of `p` against the sides of `q`; `None` if all lie on the outer side of one, or on it.

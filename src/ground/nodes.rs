@@ -42,6 +42,14 @@ impl Nodes {
                 Label::Design(v) => Some(nodes.alias[v as usize]),
                 _ => nodes.end(label, p),
             };
+            let at_vertex = nodes.vertex_of_ground(patch, p);
+            let own = match (own, at_vertex) {
+                (Some(v), Some(at)) if v < ground => {
+                    nodes.alias[v as usize] = at;
+                    Some(at)
+                }
+                (own, at) => own.or(at),
+            };
             let id = match (near.find(&nodes.places, p), own) {
                 (Some(id), Some(own)) if own < ground => {
                     nodes.alias[own as usize] = id;
@@ -74,6 +82,18 @@ impl Nodes {
         };
         let close = |v: &&u32| self.places[**v as usize].truncate().distance(p.truncate()) <= WELD;
         ends.as_flattened().iter().find(close).map(|&v| self.alias[v as usize])
+    }
+
+    /// The vertex of the ground at a place, if there is one that close.
+    fn vertex_of_ground(&self, patch: &Patch, p: DVec3) -> Option<u32> {
+        let mut found = None;
+        patch.near(p.truncate(), p.truncate(), |t| {
+            let close = |v: &u32| patch.vertices[*v as usize].truncate().distance(p.truncate()) <= WELD;
+            if found.is_none() {
+                found = patch.triangles[t as usize].iter().copied().find(close);
+            }
+        });
+        found.map(|v| self.ground + v)
     }
 
     /// Number of a vertex of the design.

@@ -202,7 +202,7 @@ impl<'a, S: Sink> Flood<'a, S> {
             let next = &kept[(n + 1) % kept.len()];
             let flat = [corner, next].map(|c| class(sense * c.h) <= 0);
             if flat[0] {
-                self.note(a, b, kept, n);
+                self.note(a, b, corner);
             }
             let border = Border::new((a, b), corner, next);
             if corner.side == Side::INSIDE {
@@ -249,20 +249,17 @@ impl<'a, S: Sink> Flood<'a, S> {
         }
     }
 
-    /// Takes down the point of corner `n` of a piece, where design and ground meet, and the edges it lies on.
-    fn note(&mut self, a: u32, b: u32, kept: &[Corner], n: usize) {
-        let corner = &kept[n];
+    /// Takes down the point of a corner where design and ground meet, and the edges it lies on.
+    fn note(&mut self, a: u32, b: u32, corner: &Corner) {
         self.works.points.entry(corner.label).or_insert_with(|| corner.at.extend(corner.z));
         if let (Label::Ground(v), true) = (corner.label, corner.vertex != NONE) {
             self.works.twins.push([corner.vertex, v]);
         }
-        for side in [corner.side, kept[(n + kept.len() - 1) % kept.len()].side] {
-            if let Some(i) = side.design {
-                remember(&mut self.works.on_design, self.shape.edge(a, i), corner.label);
-            }
-            if let Some(j) = side.ground {
-                remember(&mut self.works.on_ground, self.patch.edge(b, j), corner.label);
-            }
+        for i in (0..3).filter(|i| corner.on_design & 1 << i != 0) {
+            remember(&mut self.works.on_design, self.shape.edge(a, i), corner.label);
+        }
+        for j in (0..3).filter(|j| corner.on_ground & 1 << j != 0) {
+            remember(&mut self.works.on_ground, self.patch.edge(b, j), corner.label);
         }
     }
 
@@ -276,9 +273,9 @@ impl<'a, S: Sink> Flood<'a, S> {
         for (n, corner) in split.iter().enumerate() {
             let next = &split[(n + 1) % split.len()];
             let border = Border::new((a, b), corner, next);
-            let on_line = |side: Side| side.design.is_some_and(|i| self.shape.neighbours[a as usize][i as usize] == NONE);
-            if class(corner.h) == 0 && (on_line(corner.side) || on_line(split[(n + split.len() - 1) % split.len()].side)) {
-                self.note(a, b, &split, n);
+            let outer = |i: usize| corner.on_design & 1 << i != 0 && self.shape.neighbours[a as usize][i] == NONE;
+            if class(corner.h) == 0 && (0..3).any(outer) {
+                self.note(a, b, corner);
             }
             self.cross(&border, [corner, next]);
         }
@@ -361,11 +358,22 @@ fn meeting(shape: &Shape, patch: &Patch, (a, b): (u32, u32), p: &Corner, q: &Cor
         (Some(i), None) => Label::DesignMeets(shape.edge(a, i), b),
         (None, j) => Label::GroundMeets(patch.edge(b, j.unwrap_or(0)), a),
     };
+    let bit = |side: Option<u8>| side.map_or(0, |i| 1 << i);
+    let (on_design, on_ground) = (bit(p.side.design), bit(p.side.ground));
     let (first, second) = if p.label <= q.label { (p, q) } else { (q, p) };
     let t = first.h / (first.h - second.h);
     let at = first.at.lerp(second.at, t);
     // On an edge of the ground alone, the height of that edge.
     let lift = if p.side.design.is_some() { 0.0 } else { 1.0 };
     let height = |c: &Corner| c.z - lift * c.h;
-    Corner { label, at, z: height(first) + t * (height(second) - height(first)), h: 0.0, vertex: NONE, side: Side::INSIDE }
+    Corner {
+        label,
+        at,
+        z: height(first) + t * (height(second) - height(first)),
+        h: 0.0,
+        vertex: NONE,
+        on_design,
+        on_ground,
+        side: Side::INSIDE,
+    }
 }

@@ -31,6 +31,15 @@ pub fn turn(a: DVec2, b: DVec2, c: DVec2) -> Turn {
     }
 }
 
+/// Where the line through `r` and `s` crosses the segment from `p` to `q`, which has its ends on either side of it: 0 at `p`,
+/// 1 at `q`. Right to a few units in the last place, however small the angle.
+pub fn crossing([p, q]: [DVec2; 2], [r, s]: [DVec2; 2]) -> f64 {
+    let coord = |p: DVec2| Coord { x: p.x, y: p.y };
+    let side = |c: DVec2| orient2d(coord(r), coord(s), coord(c));
+    let (from, to) = (side(p), side(q));
+    (from / (from - to)).clamp(0.0, 1.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -45,5 +54,13 @@ mod tests {
         assert_eq!(turn(a, a, c), Turn::Straight);
         // The plain determinant is nought here, in either order of its terms.
         assert_eq!((b - a).perp_dot(DVec2::new(0.5, 0.5f64.next_up()) - a), 0.0);
+    }
+
+    /// Two lines that meet at a quarter under an angle of one unit in the last place.
+    #[test]
+    fn crosses_under_the_smallest_angle() {
+        let (p, q) = (DVec2::new(0.0, 1.0_f64.next_up()), DVec2::new(4.0, 1.0 - 3.0 * f64::EPSILON));
+        let t = crossing([p, q], [DVec2::new(-8.0, 1.0), DVec2::new(8.0, 1.0)]);
+        assert_eq!(t, 0.25);
     }
 }
