@@ -1,8 +1,8 @@
 //! Why a job was not done.
 
 use super::DesignError;
-use crate::formation::FormationError;
 use super::volume::ComparisonError;
+use crate::formation::FormationError;
 use crate::ground::GroundError;
 use crate::model::{Defects, Slope};
 use crate::read::ReadError;
@@ -45,7 +45,7 @@ pub enum Error {
         /// The ground.
         ground: String,
         /// Why.
-        cause: GroundError,
+        cause: Box<GroundError>,
     },
     /// Stretches of the line are buried, and that was not to be.
     #[error(transparent)]

@@ -44,7 +44,7 @@ pub(super) fn build(
     let built = site.build(&designs, &options, watch).map_err(|cause| Error::Ground {
         label: source.label.clone(),
         ground: ground_source.label.clone(),
-        cause,
+        cause: Box::new(cause),
     })?;
     built.notes.iter().for_each(|note| watch.note(note));
     let inputs = figures::Inputs { line, source, ground: &ground_source, terrain, area };

@@ -36,8 +36,6 @@ fn first_null(value: &Value, path: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::Detail;
-    use crate::report::Report;
     use crate::report::testing::{compare, full, least, on_ground};
     use crate::report::{Detail, Report};
 
