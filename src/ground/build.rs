@@ -27,6 +27,9 @@ const BEYOND: f64 = 0.01;
 /// See [`BEYOND`].
 const LEAST_BEYOND: f64 = 10.0;
 
+/// How deep the works are is found with this many times the tolerance.
+const COARSER: f64 = 8.0;
+
 /// Platform area without ground up to this part of the whole is rounding.
 const AREA_ROUNDING: f64 = 1e-9;
 
@@ -38,6 +41,8 @@ pub struct Site<'a> {
     label: &'a str,
     bounds: Bounds,
     reaches: Vec<Reach>,
+    /// The ends that were proposed.
+    ends: Vec<(Sheet, f64)>,
 }
 
 /// What is wanted of the ground.
@@ -63,7 +68,7 @@ impl<'a> Site<'a> {
         }
         let terrain = terrain.in_frame(Frame::around(lo, hi));
         let bounds = Bounds::new(&terrain);
-        Self { line, terrain, label, bounds, reaches: Vec::new() }
+        Self { line, terrain, label, bounds, reaches: Vec::new(), ends: Vec::new() }
     }
 
     /// The ground.
@@ -75,18 +80,18 @@ impl<'a> Site<'a> {
     pub fn end(&mut self, slope: Slope, sheet: Sheet, tolerance: f64) -> f64 {
         let reach = self.bounds.reach(&self.terrain.frame, self.line, slope, sheet);
         let (low, high) = self.line.elevation_range();
-        let beyond = |depth: f64| (BEYOND * depth).max(LEAST_BEYOND * tolerance);
         let end = match sheet {
             Sheet::Falling => {
                 let end = reach.lowest.min(low);
-                end - beyond(high - end)
+                end - beyond(high - end, tolerance)
             }
             Sheet::Rising => {
                 let end = reach.highest.max(high);
-                end + beyond(end - low)
+                end + beyond(end - low, tolerance)
             }
         };
         self.reaches.push(reach);
+        self.ends.push((sheet, end));
         end
     }
 
@@ -95,19 +100,19 @@ impl<'a> Site<'a> {
     /// # Errors
     /// [`GroundError`]; meshes that fail their check are errors, never a result.
     pub fn build(self, designs: &[Design], options: &Options, watch: &dyn Watch) -> Result<Ground, GroundError> {
-        let designs = self.in_common(designs);
+        let whole = designs.iter().any(|d| d.side_of_rings == Side::Inside) && self.line.chains.iter().all(|c| c.closed());
+        let designs = if whole { designs.to_vec() } else { self.as_deep_as_needed(designs, watch)? };
+        let designs = self.in_common(&designs);
         let surfaces = self.surfaces(&designs, watch)?;
         let go_on = |stage| {
             watch.stage(stage);
             if watch.cancelled() { Err(SurfaceError::Cancelled) } else { Ok(()) }
         };
         go_on("works")?;
-        let whole = designs.iter().any(|d| d.side_of_rings == Side::Inside) && self.line.chains.iter().all(|c| c.closed());
         let unsound = |mesh, what: &str| GroundError::Unsound { mesh, what: what.to_owned() };
         let shape = Shape::new(&surfaces.iter().collect::<Vec<_>>(), whole)
             .ok_or_else(|| unsound("design", "its slopes do not have the points of the line in common"))?;
-        let flats = (0..shape.triangles.len() as u32).filter(|&a| whole || shape.parts[a as usize] == Part::Platform);
-        let patch = Patch::new(&self.terrain, self.bounds.touched(&self.terrain, &self.reaches, flats.map(|a| shape.plan(a))));
+        let patch = self.patch(&shape, whole);
         let notes = inspected(&patch, &self.terrain, self.label)?;
         let stations = Stations::new(self.axes(), options.stations)?;
         let mut feeder = Feeder::new(&shape, &stations);
@@ -144,6 +149,49 @@ impl<'a> Site<'a> {
             stations: &stations,
             notes,
         })
+    }
+
+    /// The designs with ends just beyond the ground that they really meet, where the end was one of [`Self::end`].
+    ///
+    /// A first, coarse build tells how deep the works are. So the meshes do not depend on how tightly the ground could be bounded
+    /// beforehand: not on its triangles, nor on where the grid of the bounds lies.
+    fn as_deep_as_needed(&self, designs: &[Design], watch: &dyn Watch) -> Result<Vec<Design>, GroundError> {
+        let free = |design: &Design| {
+            self.ends.iter().any(|&(sheet, end)| sheet == design.sheet && design.extent == Extent::Elevation(end))
+        };
+        if !designs.iter().any(free) {
+            return Ok(designs.to_vec());
+        }
+        let coarse = |design: &Design| Design { tolerance: COARSER * design.tolerance, interval: None, ..design.clone() };
+        let coarse = self.in_common(&designs.iter().map(coarse).collect::<Vec<_>>());
+        // Whatever is wrong is found again, and told, in the build proper.
+        let Ok(surfaces) = self.surfaces(&coarse, watch) else { return Ok(designs.to_vec()) };
+        let Some(shape) = Shape::new(&surfaces.iter().collect::<Vec<_>>(), false) else { return Ok(designs.to_vec()) };
+        let mut depth = Depth { shape: &shape, lowest: f64::INFINITY, highest: f64::NEG_INFINITY };
+        Flood::run(&shape, &self.patch(&shape, false), false, &mut depth);
+        let (low, high) = self.line.elevation_range();
+        let deepened = |design: &Design| {
+            let Extent::Elevation(given) = design.extent else { return design.clone() };
+            let slack = COARSER * design.tolerance;
+            let end = match design.sheet {
+                Sheet::Falling => {
+                    let end = depth.lowest.min(low) - slack;
+                    given.max(rounded(end - beyond(high - end, slack), high - end, f64::floor))
+                }
+                Sheet::Rising => {
+                    let end = depth.highest.max(high) + slack;
+                    given.min(rounded(end + beyond(end - low, slack), end - low, f64::ceil))
+                }
+            };
+            if free(design) { Design { extent: Extent::Elevation(end), ..design.clone() } } else { design.clone() }
+        };
+        Ok(designs.iter().map(deepened).collect())
+    }
+
+    /// The part of the ground that the works can touch.
+    fn patch(&self, shape: &Shape, whole: bool) -> Patch {
+        let flats = (0..shape.triangles.len() as u32).filter(|&a| whole || shape.parts[a as usize] == Part::Platform);
+        Patch::new(&self.terrain, self.bounds.touched(&self.terrain, &self.reaches, flats.map(|a| shape.plan(a))))
     }
 
     /// The designs in one frame, with one interval, each simplifying the line as the other needs it.
@@ -276,6 +324,34 @@ pub(crate) struct Fed {
     pub(crate) sections: Option<SectionFigures>,
     /// Plan area of each triangle of the design that has been fed.
     pub(crate) covered: Vec<f64>,
+}
+
+/// Finds how deep the works reach.
+struct Depth<'a> {
+    shape: &'a Shape,
+    lowest: f64,
+    highest: f64,
+}
+
+impl Sink for Depth<'_> {
+    fn take(&mut self, a: u32, corners: &[cell::Corner]) {
+        match self.shape.parts[a as usize] {
+            Part::FillSlope => self.lowest = corners.iter().fold(self.lowest, |z, c| z.min(c.z)),
+            Part::CutSlope => self.highest = corners.iter().fold(self.highest, |z, c| z.max(c.z)),
+            _ => {}
+        }
+    }
+}
+
+/// See [`BEYOND`].
+fn beyond(depth: f64, tolerance: f64) -> f64 {
+    (BEYOND * depth).max(LEAST_BEYOND * tolerance)
+}
+
+/// An end on a coarse scale, so that it does not move with every digit of the ground.
+fn rounded(end: f64, depth: f64, round: fn(f64) -> f64) -> f64 {
+    let step = levels::round_interval(depth.max(f64::MIN_POSITIVE)) / 4.0;
+    round(end / step) * step
 }
 
 /// Passes the pieces of the works on, with their stations.

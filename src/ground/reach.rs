@@ -119,7 +119,8 @@ impl Bounds {
     /// Column or row of a coordinate, within the grid.
     fn index(&self, value: f64, axis: usize) -> usize {
         let (origin, cell) = ([self.origin.x, self.origin.y][axis], [self.cell.x, self.cell.y][axis]);
-        (((value - origin) / cell).floor().max(0.0) as usize).min(self.size[axis] - 1)
+        // The cast cuts off towards nought, and makes nought of what is negative.
+        (((value - origin) / cell) as usize).min(self.size[axis] - 1)
     }
 
     /// All cells a triangle has a part in, and perhaps some beside it: row by row between the smallest and greatest x there.
