@@ -138,9 +138,11 @@ fn files_of_another_kind() {
     let folder = Folder::of(&site());
     refused(&folder, "--terrain line.geojson", &[2, 3], &["line.geojson"]);
     refused(&folder, "--terrain missing.obj", &[3], &["missing.obj"]);
-    let folder = folder.with("ground.tif", "II*\0").with("ground", &obj);
+    let folder = folder.with("ground.tif", "II*\0").with("ground", "what is this\n");
     refused(&folder, "--terrain ground.tif", &[2, 3], &[".tif", ".obj|tiff"]);
     refused(&folder, "--terrain ground", &[2, 3], &["ending|extension"]);
+    // Without an ending the content tells.
+    folder.with("bare", &obj).run(&format!("{BUILD} --terrain bare")).done();
 }
 
 /// A PLY that promises more than it holds.
