@@ -28,6 +28,8 @@ doc:
 # Figures of speed; see docs/performance.md
 bench:
     cargo bench --bench engine
+    cargo bench --bench overlay
+    cargo bench --bench reading
 
 # The pictures of the README, from fixtures
 picture:

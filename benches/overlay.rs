@@ -6,8 +6,9 @@
 
 use glam::DVec2;
 use slopegen::kernel::frame::Frame;
-use slopegen::model::Terrain;
+use slopegen::model::{Part, Terrain, Tin};
 use slopegen::overlay::{Between, between};
+use slopegen::write::write_ply;
 use spade::{DelaunayTriangulation, Point2, Triangulation as _};
 use std::time::Instant;
 
@@ -26,11 +27,14 @@ const CASES: [(&str, usize); 9] = [
     ("wedge-far", 500_000),
     ("same", 500_000),
     ("giants", 500_000),
-    ("slivers", 500_000),
+    ("slivers", 50_000),
 ];
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
+    if let [design, existing, report] = &arguments[..] {
+        return program([design, existing, report]);
+    }
     if let [name, count] = &arguments[..] {
         run(name, count.parse().expect("a number of vertices"));
         return;
@@ -44,6 +48,35 @@ fn main() {
         let out = std::process::Command::new(&this).args([name, &count.to_string()]).output().expect("a run of one case");
         print!("{}", String::from_utf8_lossy(&out.stdout));
     }
+    for name in ["rough", "rough-far", "noise"] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (a, b) = pair(name, 500_000);
+        let paths = ["a.ply", "b.ply", "report.json"].map(|file| folder.path().join(file));
+        for (mesh, path) in [a, b].into_iter().zip(&paths) {
+            let parts = vec![Part::Ground; mesh.triangles.len()];
+            let tin = Tin { frame: mesh.frame, vertices: mesh.vertices, triangles: mesh.triangles, parts };
+            write_ply(&mut std::fs::File::create(path).expect("a file"), &tin).expect("a mesh");
+        }
+        let out = std::process::Command::new(&this).args(&paths).output().expect("a run of the program");
+        print!("{:>16}, whole program: {}", name, String::from_utf8_lossy(&out.stdout));
+    }
+}
+
+/// `slopegen volume` on two files: the whole process, its reading included.
+fn program([design, existing, report]: [&String; 3]) {
+    let start = Instant::now();
+    let arguments = ["slopegen", "volume", design, existing, "--quiet", "--report", report];
+    let code = slopegen::cli::run(arguments.into_iter().map(Into::into));
+    assert_eq!(code, std::process::ExitCode::SUCCESS);
+    let report = std::fs::read_to_string(report).expect("a report");
+    let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+    println!(
+        "CPU {:.2} s, wall {:.2} s, {:.0} MB; timing {}",
+        cpu(),
+        start.elapsed().as_secs_f64(),
+        peak_memory(),
+        report["timing"]
+    );
 }
 
 /// Pseudo-random numbers in [0, 1), the same on every machine.
@@ -133,7 +166,7 @@ fn cpu() -> f64 {
 fn run(name: &str, count: usize) {
     let (a, b) = pair(name, count);
     let (before, start) = (cpu(), Instant::now());
-    let found = between(&a, &b).expect("two meshes over each other");
+    let found = between(&a, &b, None).expect("two meshes over each other");
     let (wall, used) = (start.elapsed().as_secs_f64(), cpu() - before);
     println!(
         "{:>16} {:>10} {:>10} {used:>8.2} {wall:>8.3} {:>8.0} {:>20.6} {:>20.6} {}",

@@ -4,6 +4,7 @@
 //! above it in this list; `pipeline` alone knows the order. See `docs/architecture.md`.
 
 pub mod cli;
+pub mod formation;
 pub mod ground;
 pub mod kernel;
 pub mod mesh;

@@ -2,22 +2,27 @@
 //! that can be refused without the input has been refused before ([`crate::cli`] does it for the command line).
 
 pub mod build;
+pub mod check;
 pub mod design;
 pub mod error;
 mod figures;
 mod ground;
 mod on_ground;
 pub mod sample;
+pub mod volume;
 mod watch;
 
 pub use build::{BuildJob, Built, build};
+pub use check::{CheckJob, Looked, NotPassed, SlopeWish, check};
 pub use design::{DesignError, MOST_LEVELS, Wishes};
 pub use error::{BuriedError, Error};
 pub use ground::read_ground;
 pub use on_ground::GroundInput;
 pub use sample::{Area, Lattice, MOST_NODES, SampleJob, Sampled, Where, lattice, sample};
+pub use volume::{Against, Compared, ComparisonError, VolumeJob, volume};
 pub use watch::{Observer, WRITING};
 
+use crate::formation::{self, Formation};
 use crate::model::{Line, Slope};
 use crate::read::{self, ReadOptions, Source};
 use crate::validate;
@@ -32,6 +37,10 @@ pub struct LineInput {
     pub options: ReadOptions,
     /// Make rings of lines that do not end where they begin.
     pub closed: bool,
+    /// Make roads of open lines.
+    pub formation: Option<Formation>,
+    /// How far breaklines may miss rings and each other, in plan and in height, in the length unit.
+    pub tolerance: f64,
 }
 
 /// Reads and checks a line; what is worth knowing goes to `observer`.
@@ -42,7 +51,15 @@ fn read_line(input: &LineInput, observer: &watch::Stopwatch<'_>) -> Result<(Line
     observer.stage_of(watch::CHECKING);
     let checked = validate::check(&raw, &validate::Options { closed: input.closed })?;
     checked.notes.iter().for_each(|note| observer.note(note));
-    Ok((checked.line, raw.source))
+    let mut line = checked.line;
+    if let Some(road) = &input.formation {
+        let formed = formation::widen(&line, &raw.source.label, road)?;
+        formed.notes.iter().for_each(|note| observer.note(note));
+        line = formed.line;
+    }
+    let formed = formation::place(line, &raw.source.label, input.tolerance)?;
+    formed.notes.iter().for_each(|note| observer.note(note));
+    Ok((formed.line, raw.source))
 }
 
 /// Refuses segments as steep as the slope.

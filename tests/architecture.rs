@@ -4,9 +4,23 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library. Each uses only itself and those before it.
-const ORDER: [&str; 15] = [
-    "kernel", "model", "read", "validate", "sheet", "slope", "mesh", "surface", "terrain", "overlay", "ground", "write",
-    "report", "pipeline", "cli",
+const ORDER: [&str; 16] = [
+    "kernel",
+    "model",
+    "read",
+    "validate",
+    "formation",
+    "sheet",
+    "slope",
+    "mesh",
+    "surface",
+    "terrain",
+    "overlay",
+    "ground",
+    "write",
+    "report",
+    "pipeline",
+    "cli",
 ];
 
 /// Packages that stay at the edge, with the modules that may name them.

@@ -26,8 +26,9 @@ fn model(lines: &[Polyline], shift: DVec3) -> Line {
         role: if line.closed { Role::Outer { polygon: 0 } } else { Role::Open },
         vertices: line.points.iter().map(|&p| DVec3::from(p) + shift).collect(),
         places: vec![Place::default(); line.points.len()],
+        axis: None,
     };
-    Line { chains: lines.iter().map(chain).collect() }
+    Line { chains: lines.iter().map(chain).collect(), ..Line::default() }
 }
 
 #[test]

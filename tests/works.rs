@@ -49,7 +49,7 @@ fn rolling(seed: u64, height: f64, length: f64) -> impl Fn(f64, f64) -> f64 {
 
 fn build(lines: &[Polyline], cut: f64, fill: f64, terrain: &Terrain, options: &Options) -> Result<Ground, GroundError> {
     let line = line(lines);
-    let mut site = Site::new(&line, terrain.clone());
+    let mut site = Site::new(&line, terrain.clone(), "ground");
     let slope = |k: f64| Slope::from_ratio(k).unwrap();
     let down = site.end(slope(fill), Sheet::Falling, 1e-3);
     let up = site.end(slope(cut), Sheet::Rising, 1e-3);

@@ -1,5 +1,6 @@
 //! Arguments as typed: what the parser can check by itself, and the words of the help.
 
+use super::check::CheckArgs;
 use super::help;
 use clap::{ArgAction, ArgGroup, Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
 use std::ffi::OsString;
@@ -23,9 +24,15 @@ pub(super) enum Command {
     /// Build the surface and write mesh, line work and report
     #[command(after_help = help::AFTER_BUILD, arg_required_else_help = true)]
     Build(Box<BuildArgs>),
+    /// Exact cut and fill between two surfaces, or a surface and a level
+    #[command(after_help = help::AFTER_VOLUME, arg_required_else_help = true)]
+    Volume(Box<VolumeArgs>),
     /// Exact heights of the surface at points or as a raster
     #[command(after_help = help::AFTER_SAMPLE, arg_required_else_help = true)]
     Sample(Box<SampleArgs>),
+    /// Look at a mesh from anywhere: soundness, slopes, angles
+    #[command(after_help = help::AFTER_CHECK, arg_required_else_help = true)]
+    Check(Box<CheckArgs>),
 }
 
 #[derive(Debug, Args)]
@@ -139,6 +146,32 @@ pub(super) struct SampleArgs {
 }
 
 #[derive(Debug, Args)]
+pub(super) struct VolumeArgs {
+    /// The surface after the works: .obj, .ply, .asc, or points as .csv, .txt, .xyz; with --to-elevation the surface before
+    #[arg(value_name = "DESIGN")]
+    pub(super) design: PathBuf,
+    /// The surface before the works, in any of these formats
+    #[arg(value_name = "EXISTING", required_unless_present = "to_elevation", conflicts_with = "to_elevation")]
+    pub(super) existing: Option<PathBuf>,
+    /// Bring the one surface given to elevation Z: cut is what lies above, fill what is missing below
+    #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = help::SURFACE)]
+    pub(super) to_elevation: Option<String>,
+    /// Only inside the rings or polygons of this file: .geojson, .json, or a text file
+    #[arg(long, value_name = "FILE", help_heading = help::SURFACE)]
+    pub(super) within: Option<PathBuf>,
+    /// Columns of text files of points without a header, such as xyz or pnezd
+    #[arg(long, value_name = "ORDER", help_heading = help::INPUT)]
+    pub(super) csv_order: Option<String>,
+
+    /// Write the report; .json or .txt, may be repeated [default: as text to standard output]
+    #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
+    pub(super) report: Vec<OsString>,
+
+    #[command(flatten)]
+    pub(super) running: Running,
+}
+
+#[derive(Debug, Args)]
 pub(super) struct InputArgs {
     /// The line: .geojson, .json, .csv, .txt, .tsv or .xyz; - is standard input
     #[arg(value_name = "INPUT")]
@@ -154,6 +187,12 @@ pub(super) struct InputArgs {
     /// Make rings of lines that do not end where they begin
     #[arg(long, help_heading = help::INPUT)]
     pub(super) closed: bool,
+    /// Make roads of this width about open lines; platform and slopes are built from their edges
+    #[arg(long, value_name = "W", allow_negative_numbers = true, help_heading = help::INPUT)]
+    pub(super) width: Option<String>,
+    /// Fall from the centre line of roads to their edges: 2.5%, 1:40, or LEFT,RIGHT such as 2.5%,-2.5%
+    #[arg(long, value_name = "C", requires = "width", allow_hyphen_values = true, help_heading = help::INPUT)]
+    pub(super) crossfall: Option<String>,
 }
 
 #[derive(Debug, Args)]

@@ -11,7 +11,18 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Notes on the result itself rather than on how the input was read.
-const WARNINGS: [&str; 2] = ["buried", "line-beyond-end"];
+const WARNINGS: [&str; 10] = [
+    "buried",
+    "line-beyond-end",
+    "ground-single-precision",
+    "ground-points-conflict",
+    "ground-holes",
+    "ground-pieces",
+    "ground-spikes",
+    "design-uncovered",
+    "meshes-swapped",
+    "lies-double",
+];
 
 /// Time between two frames of the progress display.
 const FRAME: Duration = Duration::from_millis(100);

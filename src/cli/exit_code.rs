@@ -2,7 +2,7 @@
 
 use super::job::UsageErrors;
 use crate::ground::GroundError;
-use crate::pipeline::Error;
+use crate::pipeline::{Error, NotPassed};
 use crate::read::ReadError;
 use crate::surface::SurfaceError;
 use std::process::ExitCode;
@@ -32,20 +32,32 @@ impl Code {
         if error.is::<UsageErrors>() {
             return Self::Usage;
         }
+        if error.is::<NotPassed>() {
+            return Self::Check;
+        }
         match error.downcast_ref::<Error>() {
             // Seen from the arguments alone, without opening a file.
             Some(Error::Read(ReadError::StdinFormat | ReadError::UnknownFormat { .. })) => Self::Usage,
             Some(Error::Read(_)) => Self::Input,
             Some(Error::Write(error)) if error.is_usage() => Self::Usage,
             Some(Error::Write(_)) => Self::Output,
-            Some(Error::Surface { cause, .. } | Error::Ground { cause: GroundError::Surface(cause), .. }) => match cause {
-                SurfaceError::Cancelled => Self::Interrupted,
-                SurfaceError::Unclosed { .. } | SurfaceError::Unsound { .. } => Self::Check,
+            Some(Error::Surface { cause, .. }) => Self::of_surface(cause),
+            Some(Error::Ground { cause, .. }) => match cause.as_ref() {
+                GroundError::Surface(cause) => Self::of_surface(cause),
+                GroundError::Unsound { .. } | GroundError::Cut { .. } => Self::Check,
                 _ => Self::Work,
             },
-            Some(Error::Ground { cause: GroundError::Unsound { .. } | GroundError::Cut { .. }, .. }) => Self::Check,
-            Some(Error::Ground { .. }) => Self::Work,
-            Some(Error::Invalid(_) | Error::Design(_) | Error::Buried(_)) | None => Self::Work,
+            Some(Error::Invalid(_) | Error::Formation(_) | Error::Design(_) | Error::Overlay(_) | Error::Buried(_)) | None => {
+                Self::Work
+            }
+        }
+    }
+
+    fn of_surface(cause: &SurfaceError) -> Self {
+        match cause {
+            SurfaceError::Cancelled => Self::Interrupted,
+            SurfaceError::Unclosed { .. } | SurfaceError::Unsound { .. } => Self::Check,
+            _ => Self::Work,
         }
     }
 

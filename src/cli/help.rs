@@ -3,6 +3,7 @@
 pub(super) const INPUT: &str = "Input";
 pub(super) const SURFACE: &str = "Surface";
 pub(super) const PLACES: &str = "Places";
+pub(super) const CHECKS: &str = "Checks";
 pub(super) const OUTPUT: &str = "Output";
 pub(super) const RUNNING: &str = "Running";
 
@@ -21,6 +22,8 @@ pub(super) const AFTER_BUILD: &str = "\
 Examples:
   slopegen build road.geojson --slope 1:1.5
       embankment on both sides of a road, 10 below its lowest vertex: road.obj, report on standard output
+  slopegen build road.geojson --slope 1:1.5 --width 8 --crossfall 2.5%
+      the same for a road 8 wide: platform with a crown, slopes from its edges
   slopegen build pad.geojson --slope 1:2 --to-elevation 405 -o pad.ply --lines pad_lines.geojson --report pad.json
       building pad above level ground, with line work and report
   slopegen build pit.csv --closed --side inside --slope 45deg --height 6 -o pit.obj
@@ -31,6 +34,16 @@ Examples:
 
 1:1.5 is one vertical to 1.5 horizontal. 1:0.5 could be read either way and is refused: write 1V:0.5H or 1H:0.5V.";
 
+pub(super) const AFTER_VOLUME: &str = "\
+Examples:
+  slopegen volume design.obj ground.obj --report volume.json
+  slopegen volume may.xyz april.xyz --within lot.geojson
+      between two surveys, inside the boundary of a lot
+  slopegen volume stockpile.ply --to-elevation 102.5
+      what lies above a level (cut), and what is missing below it (fill)
+
+Cut is where DESIGN lies below EXISTING, fill where it lies above; only where both are. Faces are taken as they are given.";
+
 pub(super) const AFTER_SAMPLE: &str = "\
 Examples:
   slopegen sample road.geojson --slope 1:1.5 --at points.csv -o heights.csv
@@ -39,3 +52,15 @@ Examples:
   echo 500100,5400200 | slopegen sample road.geojson --slope 1:1.5 --at - --at-order xy
 
 Heights are those of the closed form of the given line, on both sides of it and as far as you ask: nothing is simplified.";
+
+pub(super) const AFTER_CHECK: &str = "\
+Examples:
+  slopegen check ground.obj
+      is it a sound surface: oriented, without overlaps, cracks and T-junctions? With places, slopes and angles
+  slopegen check road.obj --slope 1:1.5
+      and do its slopes keep 1V:1.5H within 0.1 degrees?
+  slopegen check design.ply --slope 1:2 --tolerance-deg 0.5 --max-off 2% --part batter --report check.json
+      the group `batter` of another program's mesh: 2 % of its area may be off by more than half a degree
+
+The mesh is taken as it is in the file; vertices at exactly the same place are taken as one. Exits with 5 when the surface is
+not sound or does not keep the slope, with 0 when there are only remarks.";

@@ -1,9 +1,10 @@
 //! Arguments as typed → jobs in which everything is checked that can be without the input.
 
-use super::args::{BuildArgs, DirectionArg, FormatArg, InputArgs, Running, SampleArgs, SideArg, SlopeArgs};
+use super::args::{BuildArgs, DirectionArg, FormatArg, InputArgs, Running, SampleArgs, SideArg, SlopeArgs, VolumeArgs};
 use super::number::{self, Rule};
+use crate::formation::{Crossfall, Formation};
 use crate::model::{Bulking, Extent, Sheet, Side, Slope};
-use crate::pipeline::{Area, BuildJob, GroundInput, Lattice, LineInput, SampleJob, Where, Wishes};
+use crate::pipeline::{Against, Area, BuildJob, GroundInput, Lattice, LineInput, SampleJob, VolumeJob, Where, Wishes};
 use crate::read::terrain::TerrainOptions;
 use crate::read::{ColumnOrder, InputFormat, ReadOptions};
 use crate::report::ReportFormat;
@@ -14,7 +15,16 @@ use std::fmt;
 use std::path::Path;
 
 /// The smallest tolerance, height, distance and cell: what coordinates of lines are told apart by.
-const LEAST_LENGTH: f64 = crate::validate::MERGE_DISTANCE;
+pub(super) const LEAST_LENGTH: f64 = crate::validate::MERGE_DISTANCE;
+
+/// The narrowest road, in the length unit: the sides of a narrower one are one among the errors of coordinates.
+const LEAST_WIDTH: f64 = 0.001;
+
+/// How far breaklines may miss rings where no tolerance is given, in the length unit: the default of `--tolerance`.
+const DEFAULT_TOLERANCE: f64 = 0.01;
+
+/// Part of the tolerance that rounded corners of roads may use: a third.
+const CHORDS: f64 = 3.0;
 
 /// More threads than any machine this runs on has processors.
 const MOST_THREADS: usize = 1024;
@@ -33,19 +43,19 @@ impl std::error::Error for UsageErrors {}
 
 /// Gathers what is wrong, so that all of it is told at once.
 #[derive(Default)]
-struct Checks(Vec<String>);
+pub(super) struct Checks(Vec<String>);
 
 impl Checks {
     /// The value, or `None` after taking down what is wrong with it.
-    fn take<T>(&mut self, result: Result<T, String>) -> Option<T> {
+    pub(super) fn take<T>(&mut self, result: Result<T, String>) -> Option<T> {
         result.map_err(|error| self.0.push(error)).ok()
     }
 
-    fn number(&mut self, option: &str, text: Option<&String>, rule: Rule) -> Option<f64> {
+    pub(super) fn number(&mut self, option: &str, text: Option<&String>, rule: Rule) -> Option<f64> {
         text.and_then(|text| self.take(number::read(option, text, rule)))
     }
 
-    fn format<T>(&mut self, result: Result<T, UnknownFormat>) -> Option<T> {
+    pub(super) fn format<T>(&mut self, result: Result<T, UnknownFormat>) -> Option<T> {
         self.take(result.map_err(|error| error.to_string()))
     }
 
@@ -58,13 +68,9 @@ impl Checks {
         }))
     }
 
-    fn slope(&mut self, option: &str, text: Option<&String>) -> Option<Slope> {
+    pub(super) fn slope(&mut self, option: &str, text: Option<&String>) -> Option<Slope> {
         let text = text?;
-        self.take(text.parse::<Slope>().map_err(|error| {
-            let message = error.to_string();
-            let (what, rest) = message.split_once('\n').unwrap_or((&message, ""));
-            format!("{what}\n  --> {option} {text}\n{rest}").trim_end().to_owned()
-        }))
+        self.take(text.parse::<Slope>().map_err(|error| placed(&error.to_string(), option, text)))
     }
 
     /// The slopes, each with its sheet: one, or with existing ground both.
@@ -106,7 +112,26 @@ impl Checks {
             FormatArg::Csv => InputFormat::Csv,
         });
         let csv_order = self.order("--csv-order", args.csv_order.as_ref());
-        LineInput { path: args.input.clone(), options: ReadOptions { format, csv_order }, closed: args.closed }
+        let tolerance = DEFAULT_TOLERANCE;
+        let formation = self.formation(args, tolerance);
+        let options = ReadOptions { format, csv_order };
+        LineInput { path: args.input.clone(), options, closed: args.closed, formation, tolerance }
+    }
+
+    fn formation(&mut self, args: &InputArgs, tolerance: f64) -> Option<Formation> {
+        let width = self.number("--width", args.width.as_ref(), Rule::AtLeast(LEAST_WIDTH));
+        let crossfall = args
+            .crossfall
+            .as_ref()
+            .map(|text| self.take(text.parse::<Crossfall>().map_err(|error| placed(&error.to_string(), "--crossfall", text))));
+        if args.width.is_some() && args.closed {
+            let help = "leave `--closed` out for the centre line of a road, or `--width` for a ring";
+            self.0.push(format!(
+                "`--width` needs open lines, and `--closed` makes rings of them\n  --> --width\n   = help: {help}"
+            ));
+        }
+        let crossfall = crossfall.unwrap_or(Some(Crossfall::default()));
+        width.zip(crossfall).map(|(width, crossfall)| Formation { width, crossfall, chord: tolerance / CHORDS })
     }
 
     /// How soil changes its volume; what is not given is nought.
@@ -131,12 +156,18 @@ impl Checks {
         }
     }
 
-    fn finish<T>(self, job: Option<T>) -> Result<T, UsageErrors> {
+    pub(super) fn finish<T>(self, job: Option<T>) -> Result<T, UsageErrors> {
         match job {
             Some(job) if self.0.is_empty() => Ok(job),
             _ => Err(UsageErrors(self.0)),
         }
     }
+}
+
+/// A message with the option it is about below its first line.
+fn placed(message: &str, option: &str, text: &str) -> String {
+    let (what, rest) = message.split_once('\n').unwrap_or((message, ""));
+    format!("{what}\n  --> {option} {text}\n{rest}").trim_end().to_owned()
 }
 
 /// The job of `slopegen build`.
@@ -145,7 +176,7 @@ impl Checks {
 /// Everything wrong with the arguments.
 pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     let mut checks = Checks::default();
-    let input = checks.input(&args.input);
+    let mut input = checks.input(&args.input);
     let slopes = checks.slopes(&args.slope, args.terrain.is_some());
     let extent = [
         checks.number("--to-elevation", args.to_elevation.as_ref(), Rule::Coordinate).map(Extent::Elevation),
@@ -154,6 +185,10 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     ];
     let interval = checks.number("--interval", args.interval.as_ref(), Rule::Positive);
     let tolerance = checks.number("--tolerance", Some(&args.tolerance), Rule::AtLeast(LEAST_LENGTH));
+    if let Some(tolerance) = tolerance {
+        input.tolerance = tolerance;
+        input.formation.iter_mut().for_each(|road| road.chord = tolerance / CHORDS);
+    }
     let reference = checks.number("--reference", args.reference.as_ref(), Rule::Coordinate);
     let stations = checks.number("--stations", args.stations.as_ref(), Rule::AtLeast(LEAST_LENGTH));
     let bulking = checks.bulking(args);
@@ -179,6 +214,13 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         SideArg::Inside => Side::Inside,
         SideArg::Outside => Side::Outside,
     });
+
+    if args.input.width.is_some() && side.is_some_and(|side| side != Side::Outside) {
+        let help = "leave `--side` out; `outside` says the same";
+        checks.0.push(format!(
+            "a road has its slopes outside\n  --> --side\n   = `--width` makes a ring of the edges of the road\n   = help: {help}"
+        ));
+    }
 
     let outputs = if args.output.is_empty() { vec![default_output(&args.input.input)] } else { args.output.clone() };
     let mut meshes = Vec::new();
@@ -270,6 +312,31 @@ pub(super) fn sample_job(args: &SampleArgs) -> Result<SampleJob, UsageErrors> {
     checks.finish(job)
 }
 
+/// The job of `slopegen volume`.
+///
+/// # Errors
+/// Everything wrong with the arguments.
+pub(super) fn volume_job(args: &VolumeArgs) -> Result<VolumeJob, UsageErrors> {
+    let mut checks = Checks::default();
+    let against = match &args.existing {
+        Some(existing) => Some(Against::Existing { design: args.design.clone(), existing: existing.clone() }),
+        None => checks
+            .number("--to-elevation", args.to_elevation.as_ref(), Rule::Coordinate)
+            .map(|elevation| Against::Elevation { existing: args.design.clone(), elevation }),
+    };
+    let csv_order = checks.order("--csv-order", args.csv_order.as_ref());
+    let mut reports = Vec::new();
+    for target in targets(&args.report) {
+        let format = checks.format(ReportFormat::of(&target));
+        reports.extend(format.map(|format| (target, format)));
+    }
+    if reports.iter().all(|(target, _)| *target != Target::Stdout) && !args.running.quiet {
+        reports.push((Target::Stdout, ReportFormat::Text));
+    }
+    let within = args.within.clone();
+    checks.finish(against.map(|against| VolumeJob { against, csv_order, within, reports }))
+}
+
 /// Number of threads asked for.
 ///
 /// # Errors
@@ -284,7 +351,7 @@ pub(super) fn threads(args: &Running) -> Result<Option<usize>, UsageErrors> {
     }
 }
 
-fn targets(arguments: &[OsString]) -> Vec<Target> {
+pub(super) fn targets(arguments: &[OsString]) -> Vec<Target> {
     arguments.iter().map(|argument| Target::from_arg(argument)).collect()
 }
 

@@ -1,6 +1,7 @@
 //! The command line: arguments → checked job → pipeline → messages and exit code.
 
 mod args;
+mod check;
 mod console;
 mod exit_code;
 mod help;
@@ -10,6 +11,7 @@ mod number;
 
 pub use args::command;
 
+use crate::pipeline::NotPassed;
 use anyhow::Context as _;
 use args::{Arguments, Command, Running};
 use clap::{CommandFactory as _, FromArgMatches as _};
@@ -54,6 +56,28 @@ fn dispatch(arguments: &Arguments) -> anyhow::Result<()> {
                 let is_mesh = job.meshes.iter().any(|(mesh, _)| mesh == target);
                 console.wrote(target, if is_mesh { &size } else { "" });
             }
+        }
+        Command::Check(wanted) => {
+            let job = check::check_job(wanted)?;
+            start(&wanted.running)?;
+            // The report shows the notes on the same terminal.
+            let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
+            let console = Console::new(&wanted.running, to_terminal);
+            let looked = crate::pipeline::check(&job, &console)?;
+            console.finish();
+            looked.written.iter().for_each(|target| console.wrote(target, ""));
+            if let Some(failed) = NotPassed::of(&looked.report) {
+                return Err(failed.into());
+            }
+        }
+        Command::Volume(wanted) => {
+            let job = job::volume_job(wanted)?;
+            start(&wanted.running)?;
+            let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
+            let console = Console::new(&wanted.running, to_terminal);
+            let compared = crate::pipeline::volume(&job, &console)?;
+            console.finish();
+            compared.written.iter().for_each(|target| console.wrote(target, ""));
         }
         Command::Sample(wanted) => {
             let job = job::sample_job(wanted)?;

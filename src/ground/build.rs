@@ -14,10 +14,11 @@ use super::{Axis, Corner, GroundError, Piece, SectionFigures, Sections, cell};
 use crate::kernel::frame::Frame;
 use crate::kernel::sum::Sum;
 use crate::mesh::volume;
-use crate::model::{Design, Extent, Line, Part, Sheet, Side, Slope, Terrain};
+use crate::model::{Chain, Design, Extent, Line, Note, Part, Sheet, Side, Slope, Terrain};
 use crate::slope::levels;
 use crate::surface::{self, Surface, SurfaceError, Watch};
-use glam::DVec2;
+use crate::terrain::inspect;
+use glam::{DVec2, DVec3};
 
 /// Slopes are built this part of their depth beyond the lowest (highest) ground they can reach, and at least
 /// [`LEAST_BEYOND`] tolerances: they then meet the ground within the mesh.
@@ -33,6 +34,8 @@ const AREA_ROUNDING: f64 = 1e-9;
 pub struct Site<'a> {
     line: &'a Line,
     terrain: Terrain,
+    /// Name of the ground for messages.
+    label: &'a str,
     bounds: Bounds,
     reaches: Vec<Reach>,
 }
@@ -49,8 +52,8 @@ pub struct Options {
 }
 
 impl<'a> Site<'a> {
-    /// Puts the ground into a frame that holds line and ground alike.
-    pub fn new(line: &'a Line, terrain: Terrain) -> Self {
+    /// Puts the ground into a frame that holds line and ground alike; `label` names the ground in messages.
+    pub fn new(line: &'a Line, terrain: Terrain, label: &'a str) -> Self {
         let world = |p: DVec2| terrain.frame.to_world(p.extend(0.0)).truncate();
         let (lo, hi) = terrain.plan_box();
         let (mut lo, mut hi) = (world(lo), world(hi));
@@ -60,7 +63,7 @@ impl<'a> Site<'a> {
         }
         let terrain = terrain.in_frame(Frame::around(lo, hi));
         let bounds = Bounds::new(&terrain);
-        Self { line, terrain, bounds, reaches: Vec::new() }
+        Self { line, terrain, label, bounds, reaches: Vec::new() }
     }
 
     /// The ground.
@@ -105,6 +108,7 @@ impl<'a> Site<'a> {
             .ok_or_else(|| unsound("design", "its slopes do not have the points of the line in common"))?;
         let flats = (0..shape.triangles.len() as u32).filter(|&a| whole || shape.parts[a as usize] == Part::Platform);
         let patch = Patch::new(&self.terrain, self.bounds.touched(&self.terrain, &self.reaches, flats.map(|a| shape.plan(a))));
+        let notes = inspected(&patch, &self.terrain, self.label)?;
         let stations = Stations::new(self.axes(), options.stations)?;
         let mut feeder = Feeder::new(&shape, &stations);
         let works = Flood::run(&shape, &patch, whole, &mut feeder);
@@ -138,6 +142,7 @@ impl<'a> Site<'a> {
             left: left.as_ref(),
             fed,
             stations: &stations,
+            notes,
         })
     }
 
@@ -197,16 +202,23 @@ impl<'a> Site<'a> {
         Ok(surfaces)
     }
 
-    /// The chains as axes.
+    /// The chains as axes: of a road its centre line.
     fn axes(&self) -> Vec<Axis> {
-        let axis = |chain: &crate::model::Chain| {
+        let local = |p: &DVec3| self.terrain.frame.to_local(*p).truncate();
+        let own = |chain: &Chain| {
             let stations = chain.stations();
-            let closing = chain.closed().then(|| chain.vertices[0]);
-            let points = chain.vertices.iter().copied().chain(closing);
-            let line = points.map(|p| self.terrain.frame.to_local(p).truncate()).zip(stations.iter().copied()).collect();
+            let closing = chain.closed().then(|| &chain.vertices[0]);
+            let line = chain.vertices.iter().chain(closing).map(local).zip(stations.iter().copied()).collect();
             Axis { name: chain.name.clone(), length: stations.last().copied().unwrap_or(0.0), closed: chain.closed(), line }
         };
-        self.line.chains.iter().map(axis).collect()
+        let of_road = |(index, chain): (usize, &Chain)| {
+            let axis = chain.axis.as_ref()?;
+            let centre = self.line.breaklines.iter().find(|b| b.of == Some(index) && b.stations.is_some())?;
+            let stations = centre.stations.iter().flatten().copied();
+            let line = centre.vertices.iter().map(local).zip(stations).collect();
+            Some(Axis { name: axis.name.clone(), length: axis.length, closed: false, line })
+        };
+        self.line.chains.iter().enumerate().map(|(i, chain)| of_road((i, chain)).unwrap_or_else(|| own(chain))).collect()
     }
 
     fn check_covered(&self, shape: &Shape, fed: &Fed, options: &Options) -> Result<(), GroundError> {
@@ -232,6 +244,13 @@ impl<'a> Site<'a> {
         let at = shape.frame.to_world((p + q + r) / 3.0);
         Err(GroundError::Uncovered { area, all, x: at.x, y: at.y })
     }
+}
+
+/// Looks at how the triangles of the ground near the works lie together.
+fn inspected(patch: &Patch, terrain: &Terrain, label: &str) -> Result<Vec<Note>, GroundError> {
+    let near = Terrain { frame: terrain.frame, vertices: patch.vertices.clone(), triangles: patch.triangles.clone() };
+    let findings = inspect(label, &near);
+    if findings.defects.list.is_empty() { Ok(findings.notes) } else { Err(GroundError::Terrain(findings.defects)) }
 }
 
 fn check_open(shape: &Shape, works: &Works, options: &Options) -> Result<(), GroundError> {
@@ -286,15 +305,23 @@ impl<'a> Feeder<'a> {
 
 impl Sink for Feeder<'_> {
     fn take(&mut self, a: u32, corners: &[cell::Corner]) {
-        let foot = self.shape.foot_of[a as usize];
-        let foot = (foot != NONE).then(|| self.shape.feet[foot as usize]);
+        let shape = self.shape;
         self.corners.clear();
-        self.corners.extend(corners.iter().map(|c| Corner {
-            at: c.at,
-            height: c.h,
-            station: foot.map_or(0.0, |f| f.station(c.at)),
-        }));
-        let piece = Piece { part: self.shape.parts[a as usize], axis: foot.map(|f| f.chain), corners: &self.corners };
+        let axis = if shape.foot_of[a as usize] != NONE {
+            let foot = shape.feet[shape.foot_of[a as usize] as usize];
+            self.corners.extend(corners.iter().map(|c| Corner { at: c.at, height: c.h, station: foot.station(c.at) }));
+            Some(foot.chain)
+        } else if let Some((chain, stations)) = shape.road(a) {
+            let [p, q, r] = shape.plan(a);
+            let plane = [p.extend(stations[0]), q.extend(stations[1]), r.extend(stations[2])];
+            let station = |at| cell::on_plane(&plane, at);
+            self.corners.extend(corners.iter().map(|c| Corner { at: c.at, height: c.h, station: station(c.at) }));
+            Some(chain)
+        } else {
+            self.corners.extend(corners.iter().map(|c| Corner { at: c.at, height: c.h, station: 0.0 }));
+            None
+        };
+        let piece = Piece { part: shape.parts[a as usize], axis, corners: &self.corners };
         self.tally.add(&piece);
         if let Some(sections) = &mut self.sections {
             sections.add(&piece);

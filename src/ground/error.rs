@@ -2,6 +2,7 @@
 
 use super::TooManyStations;
 use crate::mesh::region::RegionError;
+use crate::model::Defects;
 use crate::surface::SurfaceError;
 
 /// Why there is no finished ground. Places are plan coordinates in the world.
@@ -10,6 +11,9 @@ pub enum GroundError {
     /// A sheet through the line could not be built.
     #[error("{0}")]
     Surface(#[from] SurfaceError),
+    /// The ground near the works has no single height everywhere.
+    #[error("{0}")]
+    Terrain(Defects),
     /// A part of the line lies in the slope of another: platforms and slopes contradict each other.
     #[error(
         "`{chain}` from station {from:.3} to {to:.3} lies up to {depth:.3} inside the slope of `{by_chain}` near ({x:.3}, {y:.3})\n   \

@@ -14,7 +14,7 @@ use crate::kernel::orientation::{Turn, turn};
 use crate::kernel::sum::Sum;
 use crate::mesh::check::{self, HalfEdges, Soundness};
 use crate::mesh::{polygon, volume};
-use crate::model::{CurveKind, Design, Line, LineFeature, Part, Sheet, Terrain, Tin};
+use crate::model::{CurveKind, Design, Line, LineFeature, Note, Part, Sheet, Terrain, Tin};
 use crate::surface::curves::{self, chained};
 use crate::surface::{Areas, Certificate, Mark, Surface};
 use glam::DVec3;
@@ -71,6 +71,8 @@ pub struct Ground {
     pub simplified_max: f64,
     /// Triangles of the ground looked at.
     pub ground_used: usize,
+    /// Things worth knowing about the ground near the works.
+    pub notes: Vec<Note>,
 }
 
 /// All that has been found.
@@ -87,6 +89,7 @@ pub(crate) struct Found<'a> {
     pub(crate) left: Option<&'a Left>,
     pub(crate) fed: Fed,
     pub(crate) stations: &'a Stations,
+    pub(crate) notes: Vec<Note>,
 }
 
 /// Puts the results together and checks the meshes.
@@ -121,6 +124,7 @@ pub(crate) fn ground(found: &Found) -> Result<Ground, GroundError> {
         simplified: found.surfaces.iter().map(|s| s.simplified).max().unwrap_or(0),
         simplified_max: simplified,
         ground_used: found.patch.triangles.len(),
+        notes: found.notes.clone(),
         design,
     })
 }

@@ -43,7 +43,7 @@ mod tests {
     fn line(vertices: &[(f64, f64, f64)], role: Role) -> Line {
         let vertices: Vec<DVec3> = vertices.iter().map(|&v| v.into()).collect();
         let places = vec![Place::default(); vertices.len()];
-        Line { chains: vec![Chain { name: "a".into(), role, vertices, places }] }
+        Line { chains: vec![Chain { name: "a".into(), role, vertices, places, axis: None }], ..Line::default() }
     }
 
     /// Slope 0.5: level gives 0.5; a gradient of 0.3 gives √(0.25 − 0.09) = 0.4; one of 0.14 gives 0.48.
@@ -71,6 +71,6 @@ mod tests {
     fn segments_without_a_strip() {
         let up = line(&[(0.0, 0.0, 0.0), (10.0, 0.0, 5.0), (20.0, 0.0, 15.0)], Role::Open);
         assert_eq!(section_slope(&up, Slope::from_ratio(0.5).unwrap()), None);
-        assert_eq!(section_slope(&Line { chains: vec![] }, Slope::from_ratio(0.5).unwrap()), None);
+        assert_eq!(section_slope(&Line::default(), Slope::from_ratio(0.5).unwrap()), None);
     }
 }

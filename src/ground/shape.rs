@@ -21,6 +21,10 @@ pub(crate) struct Shape {
     pub(crate) feet: Vec<Foot>,
     /// Facet of each triangle, [`NONE`] for platforms.
     pub(crate) foot_of: Vec<u32>,
+    /// Stations of the vertices of a road's platform on its centre line, by vertex and chain.
+    pub(crate) stations: FxHashMap<(u32, u32), f64>,
+    /// The road each platform triangle belongs to; [`NONE`] for pads and slopes.
+    pub(crate) road_of: Vec<u32>,
     /// Mesh edges of the line, lower vertex first.
     pub(crate) hinge: FxHashSet<[u32; 2]>,
     /// Mesh edges with a meaning, lower vertex first; levels are numbered as in `levels`.
@@ -44,6 +48,8 @@ impl Shape {
             neighbours: Vec::new(),
             feet: Vec::new(),
             foot_of: Vec::new(),
+            stations: FxHashMap::default(),
+            road_of: Vec::new(),
             hinge: FxHashSet::default(),
             marks: Vec::new(),
             levels,
@@ -52,6 +58,10 @@ impl Shape {
         for (n, surface) in surfaces.iter().enumerate() {
             let number = shape.take_vertices(surface, &mut on_line, n == 0)?;
             shape.take_triangles(surface, &number, n == 0);
+            if n == 0 {
+                let stations = surface.platform_stations.iter();
+                shape.stations = stations.map(|s| ((number[s.vertex as usize], s.chain), s.station)).collect();
+            }
             shape.take_marks(surface, &number);
         }
         if whole {
@@ -61,6 +71,7 @@ impl Shape {
                 shape.join(|p| p == part);
             }
         }
+        shape.find_roads(surfaces);
         shape.marks.sort_unstable();
         shape.marks.dedup();
         Some(shape)
@@ -120,6 +131,25 @@ impl Shape {
                 self.hinge.insert(ends);
             }
         }
+    }
+
+    /// A triangle belongs to the road that all its corners have a station on.
+    fn find_roads(&mut self, surfaces: &[&Surface]) {
+        let mut chains: Vec<u32> = surfaces.iter().take(1).flat_map(|s| s.platform_stations.iter().map(|p| p.chain)).collect();
+        chains.sort_unstable();
+        chains.dedup();
+        let road = |(t, part): (&[u32; 3], &Part)| {
+            let on = |chain: &&u32| t.iter().all(|&v| self.stations.contains_key(&(v, **chain)));
+            if *part == Part::Platform { chains.iter().find(on).copied().unwrap_or(NONE) } else { NONE }
+        };
+        self.road_of = self.triangles.iter().zip(&self.parts).map(road).collect();
+    }
+
+    /// The road a platform triangle belongs to, and the stations of its corners.
+    pub(crate) fn road(&self, t: u32) -> Option<(u32, [f64; 3])> {
+        let chain = self.road_of[t as usize];
+        let station = |v: u32| self.stations.get(&(v, chain)).copied().unwrap_or(0.0);
+        (chain != NONE).then(|| (chain, self.triangles[t as usize].map(station)))
     }
 
     /// Makes neighbours of the triangles of some parts.

@@ -76,6 +76,12 @@ impl Tilted {
     fn meets(&self, other: &Self) -> bool {
         self.meets_across(other) && other.meets_across(self)
     }
+
+    /// Whether a disc about `p` may meet the box.
+    fn comes_near(&self, p: DVec2, reach: f64) -> bool {
+        let d = p - self.centre;
+        self.along.dot(d).abs() <= self.half.x + reach && self.along.perp_dot(d).abs() <= self.half.y + reach
+    }
 }
 
 /// Segments of a leaf. Small: neighbours on a line always meet, and a leaf is compared with its neighbour pair by pair.
@@ -158,6 +164,23 @@ impl SegmentTree {
         }
     }
 
+    /// Calls `visit` for every segment whose bounds come within `reach` of `p`.
+    pub fn near(&self, p: DVec2, reach: f64, mut visit: impl FnMut(usize)) {
+        let leaves = self.nodes.len() / 2;
+        let around = Bounds { lo: p - reach, hi: p + reach };
+        let mut stack = vec![1];
+        while let Some(n) = stack.pop() {
+            if !self.nodes[n].meets(&around) || self.tilted[n].is_some_and(|t| !t.comes_near(p, reach)) {
+                continue;
+            }
+            if n < leaves {
+                stack.extend([2 * n + 1, 2 * n]);
+            } else {
+                self.run(n).filter(|&i| self.segments[i].meets(&around)).for_each(&mut visit);
+            }
+        }
+    }
+
     /// Calls `visit` for every segment that may meet the ray from `p` towards +x.
     pub fn ray(&self, p: DVec2, mut visit: impl FnMut(usize)) {
         let leaves = self.nodes.len() / 2;
@@ -170,6 +193,38 @@ impl SegmentTree {
                 stack.extend([2 * n + 1, 2 * n]);
             } else {
                 self.run(n).filter(|&i| self.segments[i].meets_ray(p)).for_each(&mut visit);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn near_misses_none(
+            steps in prop::collection::vec((-3.0..3.0_f64, -3.0..3.0_f64), 1..80),
+            p in (-9.0..9.0_f64, -9.0..9.0_f64),
+            reach in 0.0..2.0_f64,
+        ) {
+            let mut at = DVec2::ZERO;
+            let segments: Vec<(DVec2, DVec2)> = steps.iter().map(|&step| {
+                let from = at;
+                at += DVec2::from(step);
+                (from, at)
+            }).collect();
+            let p = DVec2::from(p);
+            let mut found = Vec::new();
+            SegmentTree::new(&segments).near(p, reach, |i| found.push(i));
+            found.sort_unstable();
+            prop_assert!(found.windows(2).all(|w| w[0] < w[1]), "{:?}", found);
+            for (i, &(a, b)) in segments.iter().enumerate() {
+                let along = ((b - a).dot(p - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+                let distance = (p - a - (b - a) * along).length();
+                prop_assert!(distance > reach || found.contains(&i), "{} at {}", i, distance);
             }
         }
     }

@@ -1,6 +1,9 @@
 //! Triangles as such: filling regions between edges, checking a mesh, measuring it.
 
 pub mod check;
+pub mod inside;
 pub mod polygon;
+pub mod quality;
 pub mod region;
+pub mod strip;
 pub mod volume;

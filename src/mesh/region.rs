@@ -1,7 +1,7 @@
 //! Flat parts: the inside of closed outlines, triangulated from the mesh edges that bound it.
 
 use glam::DVec3;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation, handles::FixedFaceHandle, handles::InnerTag};
 
 /// Why a region could not be filled. Places are in the coordinates given.
@@ -41,6 +41,15 @@ impl HasPosition for Vertex {
 /// # Errors
 /// [`RegionError::Crossing`] and [`RegionError::Open`] if the outline is not what is asked for.
 pub fn fill(points: &[DVec3], outline: &[Vec<u32>]) -> Result<Vec<[u32; 3]>, RegionError> {
+    fill_with(points, outline, &[])
+}
+
+/// As [`fill`]; `inner` are lines inside the region whose segments become edges of the triangulation, noded like the outline. A
+/// line of one vertex is a point.
+///
+/// # Errors
+/// As [`fill`].
+pub fn fill_with(points: &[DVec3], outline: &[Vec<u32>], inner: &[Vec<u32>]) -> Result<Vec<[u32; 3]>, RegionError> {
     let mut local: FxHashMap<u32, usize> = FxHashMap::default();
     let mut vertices: Vec<Vertex> = Vec::new();
     let mut number = |id: u32| {
@@ -51,7 +60,12 @@ pub fn fill(points: &[DVec3], outline: &[Vec<u32>]) -> Result<Vec<[u32; 3]>, Reg
         })
     };
     let ends: Vec<[u32; 2]> = outline.iter().map(|edge| [edge[0], edge[edge.len() - 1]]).collect();
-    let edges: Vec<[usize; 2]> = ends.iter().map(|e| e.map(&mut number)).collect();
+    let mut edges: Vec<[usize; 2]> = ends.iter().map(|e| e.map(&mut number)).collect();
+    for line in inner {
+        let local: Vec<usize> = line.iter().map(|&v| number(v)).collect();
+        edges.extend(local.windows(2).map(|w| [w[0], w[1]]));
+    }
+    let boundary: FxHashSet<[u32; 2]> = ends.iter().flat_map(|&[a, b]| [[a, b], [b, a]]).collect();
     let place = |id: u32| points[id as usize];
     let ids: Vec<u32> = vertices.iter().map(|v| v.id).collect();
     let mut crossing = None;
@@ -76,7 +90,7 @@ pub fn fill(points: &[DVec3], outline: &[Vec<u32>]) -> Result<Vec<[u32; 3]>, Reg
     }
     while let Some(face) = pending.pop() {
         for edge in triangulation.face(face).adjacent_edges() {
-            if edge.is_constraint_edge() {
+            if edge.is_constraint_edge() && boundary.contains(&[edge.from().data().id, edge.to().data().id]) {
                 continue;
             }
             let next = edge.rev().face().as_inner().ok_or_else(|| RegionError::Open(place(edge.from().data().id)))?.fix();
@@ -144,6 +158,23 @@ mod tests {
         };
         assert!(triangles.iter().all(|t| area(t) > 0.0));
         assert_eq!(triangles.iter().map(area).sum::<f64>(), 8.0);
+    }
+
+    #[test]
+    fn keeps_lines_and_points_inside() {
+        // A ridge across the square from edge to edge, which the shorter diagonals would not choose, and a point.
+        let mut points = square(0.0, 10.0).to_vec();
+        points.extend([(1.0, 0.0), (9.0, 10.0), (5.0, 5.0), (2.0, 8.0)].map(|(x, y)| DVec3::new(x, y, 3.0)));
+        let outline = [vec![0, 4], vec![4, 1], vec![1, 2], vec![2, 5], vec![5, 3], vec![3, 0]];
+        let triangles = fill_with(&points, &outline, &[vec![4, 6, 5], vec![7]]).unwrap();
+        let area = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|v| points[v as usize].truncate());
+            0.5 * (b - a).perp_dot(c - a)
+        };
+        assert_eq!(triangles.iter().map(area).sum::<f64>(), 100.0);
+        let has = |a: u32, b: u32| triangles.iter().any(|t| (0..3).any(|i| t[i] == a && t[(i + 1) % 3] == b));
+        assert!(has(4, 6) && has(6, 4) && has(6, 5) && has(5, 6));
+        assert!(triangles.iter().any(|t| t.contains(&7)));
     }
 
     #[test]

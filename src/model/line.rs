@@ -44,6 +44,38 @@ pub struct Chain {
     pub vertices: Vec<DVec3>,
     /// Where each vertex stands in the file; same length as `vertices`.
     pub places: Vec<Place>,
+    /// The centre line, where the chain is the edge of a road made from one. Its stations are then those of the chain.
+    pub axis: Option<Axis>,
+}
+
+/// The centre line a ring was made from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Name of the centre line, for messages.
+    pub name: String,
+    /// Its plan length.
+    pub length: f64,
+    /// Station on the centre line of every vertex of the ring, and of its first vertex once more for the closing segment;
+    /// between neighbours linear. The left edge rises from 0 to `length`, the right edge comes back, end caps are constant.
+    pub stations: Vec<f64>,
+}
+
+/// A line inside a ring that shapes the surface of its platform.
+///
+/// Invariants (kept by validation, and by [`crate::formation`] once `of` is set): finite, neighbours distinct in plan; inside its
+/// ring or on it; it meets rings and other breaklines in common vertices only, of the same plan position bit for bit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Breakline {
+    /// Name for messages.
+    pub name: String,
+    /// Vertices in world coordinates; one alone is a spot height.
+    pub vertices: Vec<DVec3>,
+    /// Where each vertex stands in the file; same length as `vertices`.
+    pub places: Vec<Place>,
+    /// Stations of the vertices, for the centre line of a road.
+    pub stations: Option<Vec<f64>>,
+    /// The chain whose platform it shapes; `None` until it has been placed.
+    pub of: Option<usize>,
 }
 
 impl Chain {
@@ -77,10 +109,12 @@ impl Chain {
 }
 
 /// The given line `C`: all chains of one input. Together they carry one surface.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Line {
     /// The chains, in the order of the file.
     pub chains: Vec<Chain>,
+    /// Lines and points inside rings; the slopes know nothing of them.
+    pub breaklines: Vec<Breakline>,
 }
 
 impl Line {

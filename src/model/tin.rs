@@ -68,6 +68,8 @@ pub enum CurveKind {
     Valley,
     /// The given line.
     Hinge,
+    /// A line on the platform: given, or the centre line of a road.
+    Breakline,
     /// Where the slope ends.
     Boundary,
     /// Where the works meet the ground.
@@ -84,6 +86,7 @@ impl CurveKind {
             Self::Ridge => "ridge",
             Self::Valley => "valley",
             Self::Hinge => "hinge",
+            Self::Breakline => "breakline",
             Self::Boundary => "boundary",
             Self::Daylight => "daylight",
             Self::Zero => "zero",
@@ -100,7 +103,7 @@ pub struct LineFeature {
     pub points: Vec<DVec3>,
     /// Elevation of a level curve.
     pub elevation: Option<f64>,
-    /// Name of the chain a hinge comes from.
+    /// Name of the chain a hinge comes from, or of the breakline.
     pub chain: Option<String>,
     /// The part that meets the ground along a daylight line.
     pub part: Option<Part>,

@@ -16,6 +16,9 @@ pub(super) struct Box2 {
 impl Box2 {
     pub(super) const EMPTY: Self = Self { lo: DVec2::INFINITY, hi: DVec2::NEG_INFINITY };
 
+    /// The whole plane.
+    pub(super) const ALL: Self = Self { lo: DVec2::NEG_INFINITY, hi: DVec2::INFINITY };
+
     pub(super) fn around(points: impl IntoIterator<Item = DVec2>) -> Self {
         points.into_iter().fold(Self::EMPTY, |b, p| Self { lo: b.lo.min(p), hi: b.hi.max(p) })
     }

@@ -38,6 +38,17 @@ impl Patch {
         [s, t, self.double_area - s - t, s * self.first.z + t * self.second.z - from.z * self.double_area]
     }
 
+    /// The patch itself, with heights above the plane through `plane`, taken directly at its corners.
+    ///
+    /// The same as clipping that triangle where the patch lies inside it, but without the rounding that far corners bring.
+    pub(super) fn above_plane(&self, plane: [DVec3; 3]) -> Ring {
+        let other = Patch::new(plane);
+        // Seen from the plane, the height of a point is that of the plane above it: the other way round.
+        let [a, b, c] = self.corners.map(|p| -other.corner(p)[HEIGHT] / other.double_area * self.double_area);
+        let whole = self.double_area;
+        Ring::whole([[0.0, 0.0, whole, a], [whole, 0.0, 0.0, b], [0.0, whole, 0.0, c]])
+    }
+
     /// Point of the patch above a corner.
     pub(super) fn point(&self, c: &Corner) -> DVec3 {
         self.corners[0] + (self.first * c[0] + self.second * c[1]) / self.double_area
@@ -87,6 +98,15 @@ pub(super) struct Ring {
 impl Ring {
     pub(super) const EMPTY: Self = Self { len: 0, corners: [[0.0; 4]; MOST], edges: [0; MOST] };
 
+    /// A whole triangle.
+    pub(super) fn whole(triangle: [Corner; 3]) -> Self {
+        let mut ring = Self::EMPTY;
+        ring.corners[..3].copy_from_slice(&triangle);
+        ring.edges[..3].copy_from_slice(&[0, 1, 2]);
+        ring.len = 3;
+        ring
+    }
+
     /// The part where coordinate `K` is positive.
     ///
     /// Without branches on signs, which nothing can predict: every corner and every crossing is written, and what does not
@@ -121,13 +141,6 @@ impl Ring {
         ring
     }
 
-    /// Replaces the heights.
-    pub(super) fn with_heights(&mut self, of: impl Fn(&Corner) -> f64) {
-        for c in &mut self.corners[..self.len] {
-            c[HEIGHT] = of(c);
-        }
-    }
-
     pub(super) fn corners(&self) -> &[Corner] {
         &self.corners[..self.len]
     }
@@ -160,12 +173,11 @@ fn outside(c: &Corner) -> u8 {
     u8::from(c[0] <= 0.0) | u8::from(c[1] <= 0.0) << 1 | u8::from(c[2] <= 0.0) << 2
 }
 
-/// Where coordinate `K` is nought between two corners of opposite sign. The same to the last bit from both ends of an edge; for
-/// corners of one sign the result means nothing.
+/// Where coordinate `K` is nought between two corners of opposite sign. The same to the last bit from both ends of an edge, and
+/// exactly a corner where `K` is nought there; for corners of one sign the result means nothing.
 #[inline]
 fn crossing<const K: usize>(here: &Corner, next: &Corner) -> Corner {
-    let inverse = 1.0 / (next[K] - here[K]);
-    let (a, b) = (next[K] * inverse, -here[K] * inverse);
+    let (a, b) = (next[K] / (next[K] - here[K]), here[K] / (here[K] - next[K]));
     let mut c = [0.0; 4];
     for i in 0..4 {
         c[i] = here[i] * a + next[i] * b;

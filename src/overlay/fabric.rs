@@ -63,6 +63,11 @@ impl Fabric {
         self.triangles[t as usize].map(|v| self.vertices[v as usize])
     }
 
+    /// Box of all of it.
+    pub(super) fn whole(&self) -> Box2 {
+        Box2::around(self.vertices.iter().map(|v| v.truncate()))
+    }
+
     pub(super) fn bounds(&self, t: u32) -> Box2 {
         Box2::around(self.corners(t).map(DVec3::truncate))
     }

@@ -2,14 +2,16 @@
 //!
 //! Every triangle of one mesh is laid over the other: from one place inside, a flood through the neighbours meets each triangle
 //! that shares plan area with it, clips it, and never looks at the rest. So the cost follows the cells of the common refinement,
-//! however uneven the meshes are. See `docs/theory.md`, section 15.
+//! however uneven the meshes are. See `docs/theory.md`, "Between two meshes".
 
 mod boxes;
 mod cell;
 mod fabric;
 mod hilbert;
 mod layers;
+mod pieces;
+mod tally;
 pub mod volume;
 mod walker;
 
-pub use volume::{Areas, Between, Depth, OverlayError, Surface, between};
+pub use volume::{AREA_ROUNDING, Areas, Between, Depth, MOST_DOUBLE, OverlayError, SAME_HEIGHT, Surface, between, to_elevation};

@@ -4,7 +4,7 @@ use super::watch::{CHECKING, Observer, PREPARING, READING, READING_GROUND, Stopw
 use super::{BuriedError, Error, GroundInput, LineInput, Wishes, check_steepness, figures, on_ground, read_line};
 use crate::model::{Bulking, Line, LineFeature, Tin};
 use crate::read::Source;
-use crate::report::{Report, ReportFormat};
+use crate::report::{CrossfallFigures, Report, ReportFormat};
 use crate::surface;
 use crate::write::{Delivery, MeshFormat, Outputs, Target, WriteError, write_lines};
 use std::path::Path;
@@ -70,6 +70,10 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
         Some(ground) => on_ground::build(job, ground, &line, &source, &watch)?,
         None => alone(job, &line, &source, &watch)?,
     };
+    if let Some(road) = &job.input.formation {
+        report.line.width = Some(road.width);
+        report.line.crossfall = Some(CrossfallFigures { left: road.crossfall.left, right: road.crossfall.right });
+    }
 
     watch.stage_of(WRITING);
     let crs = source.crs.as_deref();

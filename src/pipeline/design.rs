@@ -228,7 +228,7 @@ mod tests {
     fn line(role: Role) -> Line {
         let vertices = vec![DVec3::new(0.0, 0.0, 400.0), DVec3::new(50.0, 0.0, 402.3), DVec3::new(50.0, 50.0, 401.0)];
         let places = vec![Place { feature: Some(3), vertex: 1, row: None }; 3];
-        Line { chains: vec![Chain { name: "rim".into(), role, vertices, places }] }
+        Line { chains: vec![Chain { name: "rim".into(), role, vertices, places, axis: None }], ..Line::default() }
     }
 
     const OPEN: Role = Role::Open;

@@ -1,6 +1,8 @@
 //! Why a job was not done.
 
 use super::DesignError;
+use super::volume::ComparisonError;
+use crate::formation::FormationError;
 use crate::ground::GroundError;
 use crate::model::{Defects, Slope};
 use crate::read::ReadError;
@@ -18,6 +20,9 @@ pub enum Error {
     /// The line is not one a surface can be built on.
     #[error(transparent)]
     Invalid(#[from] Defects),
+    /// The line has no formation: no road about a centre line, no place for a breakline.
+    #[error(transparent)]
+    Formation(#[from] FormationError),
     /// The line and what is wanted do not go together.
     #[error(transparent)]
     Design(#[from] DesignError),
@@ -29,6 +34,9 @@ pub enum Error {
         /// Why.
         cause: SurfaceError,
     },
+    /// Two surfaces cannot be compared.
+    #[error(transparent)]
+    Overlay(#[from] ComparisonError),
     /// Line and ground do not go together.
     #[error("{}", placed_on(.label, .ground, .cause))]
     Ground {
@@ -37,7 +45,7 @@ pub enum Error {
         /// The ground.
         ground: String,
         /// Why.
-        cause: GroundError,
+        cause: Box<GroundError>,
     },
     /// Stretches of the line are buried, and that was not to be.
     #[error(transparent)]
@@ -53,6 +61,9 @@ fn placed(label: &str, cause: &SurfaceError) -> String {
 }
 
 fn placed_on(label: &str, ground: &str, cause: &GroundError) -> String {
+    if let GroundError::Terrain(defects) = cause {
+        return defects.to_string();
+    }
     located(&format!("{label} on {ground}"), &cause.to_string())
 }
 

@@ -4,7 +4,7 @@ mod on_ground;
 
 pub(super) use on_ground::{Inputs, ground_report};
 
-use crate::model::{Design, Line, Note, Sheet, Tin};
+use crate::model::{Chain, Design, Line, Note, Sheet, Tin};
 use crate::read::Source;
 use crate::report::{
     Balance, BuriedStretch, Certificate, Depths, Detail, Input, LineFigures, Reference, Report, SCHEMA, Slopes, SurfaceFigures,
@@ -109,7 +109,7 @@ fn surface_figures(tin: &Tin, areas: &Areas) -> SurfaceFigures {
     }
 }
 
-fn input(role: &str, source: &Source) -> Input {
+pub(super) fn input(role: &str, source: &Source) -> Input {
     Input {
         role: role.to_owned(),
         path: if source.label == "<stdin>" { "-".to_owned() } else { source.label.clone() },
@@ -136,14 +136,25 @@ pub(super) fn buried(line: &Line, surface: &Surface) -> Vec<BuriedStretch> {
 
 fn line_figures(line: &Line, simplified: (usize, f64), buried: Vec<BuriedStretch>) -> LineFigures {
     let (z_min, z_max) = line.elevation_range();
-    let segments = line.chains.iter().flat_map(|chain| (0..chain.segment_count()).map(|i| chain.segment(i)));
+    let segments = line.chains.iter().flat_map(|chain| {
+        // The ends of a road lie across it.
+        let across = |i: usize| chain.axis.as_ref().is_some_and(|axis| axis.stations[i] == axis.stations[i + 1]);
+        (0..chain.segment_count()).filter(move |&i| !across(i)).map(|i| chain.segment(i))
+    });
+    let length = |chain: &Chain| match &chain.axis {
+        Some(axis) => axis.length,
+        None => chain.stations().last().copied().unwrap_or(0.0),
+    };
     let gradients = segments.map(|(a, b)| (b.z - a.z).abs() / a.truncate().distance(b.truncate()));
     LineFigures {
         chains: line.chains.len(),
         vertices: line.vertex_count(),
         simplified: simplified.0,
         simplified_max: simplified.1,
-        length: line.chains.iter().filter_map(|chain| chain.stations().last().copied()).sum(),
+        length: line.chains.iter().map(length).sum(),
+        width: None,
+        crossfall: None,
+        breaklines: line.breaklines.iter().filter(|breakline| breakline.stations.is_none()).count(),
         z_min,
         z_max,
         gradient_max: gradients.fold(0.0, f64::max),

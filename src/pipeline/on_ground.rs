@@ -37,15 +37,16 @@ pub(super) fn build(
     for wishes in &job.wishes {
         check_steepness(line, source, wishes.slope)?;
     }
-    let mut site = Site::new(line, terrain);
+    let mut site = Site::new(line, terrain, &ground_source.label);
     let designs = designs(&job.wishes, &mut site, line, &source.label, watch)?;
     let options = Options { allow_open: input.allow_open, finished: !job.finished.is_empty(), stations: job.stations };
     let (terrain, area) = terrain_figures(site.terrain());
     let built = site.build(&designs, &options, watch).map_err(|cause| Error::Ground {
         label: source.label.clone(),
         ground: ground_source.label.clone(),
-        cause,
+        cause: Box::new(cause),
     })?;
+    built.notes.iter().for_each(|note| watch.note(note));
     let inputs = figures::Inputs { line, source, ground: &ground_source, terrain, area };
     let report = figures::ground_report(&inputs, job, &designs, &built, &watch.notes());
     Ok(Product { design: built.design, finished: built.finished, lines: built.lines, report })

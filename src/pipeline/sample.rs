@@ -190,7 +190,10 @@ mod tests {
 
     fn line() -> Line {
         let vertices = vec![DVec3::new(1003.0, 2004.0, 10.0), DVec3::new(1103.0, 2054.0, 12.0)];
-        Line { chains: vec![Chain { name: "a".into(), role: Role::Open, vertices, places: vec![Place::default(); 2] }] }
+        Line {
+            chains: vec![Chain { name: "a".into(), role: Role::Open, vertices, places: vec![Place::default(); 2], axis: None }],
+            ..Line::default()
+        }
     }
 
     #[test]

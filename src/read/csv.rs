@@ -1,6 +1,7 @@
 //! Text files: one vertex per row.
 
 mod parse;
+mod plain;
 mod rows;
 
 use super::columns::{self, ColumnOrder, Columns, HeaderProblem};
@@ -8,6 +9,7 @@ use super::number::{self, Field};
 use super::sniff::{self, Delimiter};
 use super::{CoordinateKind, PointRow, RawLine, RawShape, RawVertex, ReadError, Source};
 use crate::model::{Defect, Defects, Note};
+use glam::DVec3;
 use parse::{Table, clip};
 use rows::{is_blank, is_comment};
 use std::collections::HashMap;
@@ -91,13 +93,24 @@ pub(super) fn points(
     Ok(table.records.iter().map(|r| PointRow { x: r.x, y: r.y, row: r.row }).collect())
 }
 
-fn table(
+/// How a text file is laid out.
+pub(super) struct Layout {
+    pub(super) columns: Columns,
+    pub(super) delimiter: Delimiter,
+    /// Row of the header, counted from 1; 0 without one.
+    pub(super) header: u32,
+    /// The first row with data or the header, in words.
+    at: String,
+}
+
+/// Finds the layout; `by_name` are the columns of a file without header whose name says them.
+fn layout(
     text: &str,
     source: &mut Source,
-    order: Option<&ColumnOrder>,
+    (order, by_name): (Option<&ColumnOrder>, Option<&ColumnOrder>),
     want_z: bool,
     notes: &mut Vec<Note>,
-) -> Result<Table, ReadError> {
+) -> Result<Layout, ReadError> {
     let candidates = rows::rows(text).map(|(_, row)| row).filter(|row| !row.trim().is_empty() && !is_comment(row, None));
     let delimiter = sniff::delimiter(candidates);
     let mut last_comment = None;
@@ -117,16 +130,17 @@ fn table(
     let numbers = |f: &&&str| matches!(number::field(f, delimiter.decimal_comma()), Field::Number(..) | Field::Grouped);
     let has_header = !fields.iter().any(|f| numbers(&f)) && fields.iter().any(|f| number::field(f, true) == Field::Text);
     let at = format!("{}, row {first_number}", source.label);
+    let no_z = |order: &ColumnOrder| {
+        let help = "add `z` where the elevation stands";
+        content("the column order has no elevation", &source.label, &format!("`{order}`"), help)
+    };
     let columns = match order {
         Some(order) => {
             if has_header {
                 let message = format!("row {first_number} is a header; the columns are taken from the order `{order}` instead");
                 notes.push(Note::new("header-ignored", message));
             }
-            order.columns(want_z).ok_or_else(|| {
-                let help = "add `z` where the elevation stands";
-                content("the column order has no elevation", &source.label, &format!("`{order}`"), help)
-            })?
+            order.columns(want_z).ok_or_else(|| no_z(order))?
         }
         None if has_header => {
             let fields = merge_units(&fields);
@@ -137,23 +151,85 @@ fn table(
                 notes.push(Note::new("header-in-comment", "the columns are taken from the comment above the first row"));
                 columns
             }
-            None => return Err(no_header(first_row, &at, want_z)),
+            None => match by_name {
+                Some(order) => order.columns(want_z).ok_or_else(|| no_z(order))?,
+                None => return Err(no_header(first_row, &at, want_z)),
+            },
         },
     };
     source.kind = columns.kind;
-    let (clean, places) = rows::clean(text, delimiter, if has_header { first_number } else { 0 });
-    if places.is_empty() {
-        return Err(content("the file has a header but no data", &at, "no row follows", "give at least two rows"));
-    }
-    let (table, comma) = parse::parse(&clean, &places, &columns, delimiter, &source.label)?;
-    let mark = if comma { "comma" } else { "point" };
-    let header = if has_header { "with header" } else { "without header" };
-    let message = format!("{} rows {header}, separated by {}, decimal {mark}", table.records.len(), delimiter.name());
-    notes.push(Note::new("csv-dialect", message));
     if columns.kind == CoordinateKind::Degrees {
         source.crs = Some("longitude and latitude, by the column headings".into());
     }
+    Ok(Layout { columns, delimiter, header: if has_header { first_number } else { 0 }, at })
+}
+
+fn table(
+    text: &str,
+    source: &mut Source,
+    order: Option<&ColumnOrder>,
+    want_z: bool,
+    notes: &mut Vec<Note>,
+) -> Result<Table, ReadError> {
+    let layout = layout(text, source, (order, None), want_z, notes)?;
+    read_table(text, &source.label, &layout, notes)
+}
+
+fn read_table(text: &str, label: &str, layout: &Layout, notes: &mut Vec<Note>) -> Result<Table, ReadError> {
+    let (clean, places) = rows::clean(text, layout.delimiter, layout.header);
+    if places.is_empty() {
+        return Err(content("the file has a header but no data", &layout.at, "no row follows", "give at least two rows"));
+    }
+    let (table, comma) = parse::parse(&clean, &places, &layout.columns, layout.delimiter, label)?;
+    notes.push(dialect(table.records.len(), layout, comma));
     Ok(table)
+}
+
+fn dialect(rows: usize, layout: &Layout, comma: bool) -> Note {
+    let mark = if comma { "comma" } else { "point" };
+    let header = if layout.header > 0 { "with header" } else { "without header" };
+    let message = format!("{rows} rows {header}, separated by {}, decimal {mark}", layout.delimiter.name());
+    Note::new("csv-dialect", message)
+}
+
+/// The points of a text file with elevations, all of them finite.
+///
+/// Rows of plain numbers, of which ground has millions, are read in one pass; if a single row is anything else, the file is
+/// read again with all care.
+pub(super) fn ground(
+    text: &str,
+    source: &mut Source,
+    orders: (Option<&ColumnOrder>, Option<&ColumnOrder>),
+    notes: &mut Vec<Note>,
+) -> Result<Vec<DVec3>, ReadError> {
+    let layout = layout(text, source, orders, true, notes)?;
+    if let Some(points) = plain::points(text, &layout) {
+        notes.push(dialect(points.len(), &layout, false));
+        return Ok(points);
+    }
+    let table = read_table(text, &source.label, &layout, notes)?;
+    let mut defects = Defects::default();
+    let mut points = Vec::with_capacity(table.records.len());
+    for record in &table.records {
+        let point = DVec3::new(record.x, record.y, record.z.unwrap_or(f64::NAN));
+        if !point.is_finite() {
+            const HELP: &str = "correct the row or take it out";
+            let (code, what) = match record.z {
+                None => ("no-elevation", "a point of the ground has no elevation"),
+                Some(_) => ("not-finite", "a coordinate is not finite"),
+            };
+            defects.push(code, || Defect {
+                code,
+                what: what.into(),
+                at: format!("{}, row {}", source.label, record.row),
+                figures: Some(format!("({}, {}, {})", point.x, point.y, point.z)),
+                help: HELP.into(),
+            });
+        }
+        points.push(point);
+    }
+    defects.into_result().map_err(ReadError::Records)?;
+    Ok(points)
 }
 
 /// Blank-separated headings like `x [m]`: a bracket belongs to the heading before it.

@@ -17,7 +17,7 @@ pub(super) fn text<'a>(label: &str, bytes: &'a [u8], notes: &mut Vec<Note>) -> R
         [0xFE, 0xFF, rest @ ..] => utf16(label, rest, u16::from_be_bytes)?,
         _ => utf8_or_latin1(bytes, notes),
     };
-    if let Some(at) = text.bytes().position(|byte| byte == 0) {
+    if let Some(at) = memchr::memchr(0, text.as_bytes()) {
         return Err(ReadError::Content {
             what: "the file is not text".into(),
             at: label.to_owned(),

@@ -113,6 +113,8 @@ struct Collector<'a> {
     features: usize,
     empty: usize,
     points: usize,
+    /// Whether the feature at hand calls itself a breakline.
+    breakline: bool,
     /// Whether a JSON-FG document gave `geometry` instead of `place`.
     beside_place: bool,
     defects: Defects,
@@ -127,6 +129,7 @@ impl<'a> Collector<'a> {
             features: 0,
             empty: 0,
             points: 0,
+            breakline: false,
             beside_place: false,
             defects: Defects::default(),
         }
@@ -135,6 +138,7 @@ impl<'a> Collector<'a> {
     fn feature(&mut self, feature: &Feature, number: u32, json_fg: bool) {
         self.features += 1;
         let name = name(feature);
+        self.breakline = is_breakline(feature);
         // JSON-FG: `place` holds the geometry in `coordRefSys`, `geometry` at most a copy in degrees.
         let place = feature.foreign_members.as_ref().filter(|_| json_fg).and_then(|members| members.get("place"));
         if let Some(place) = place.filter(|place| !place.is_null()) {
@@ -161,6 +165,24 @@ impl<'a> Collector<'a> {
 
     fn geometry(&mut self, geometry: &Geometry, feature: Option<u32>, name: Option<&str>) {
         match &geometry.value {
+            GeometryValue::Point { coordinates } if self.breakline => {
+                self.line(std::slice::from_ref(coordinates), feature, name, RawShape::Breakline);
+            }
+            GeometryValue::MultiPoint { coordinates } if self.breakline => {
+                for point in coordinates {
+                    self.line(std::slice::from_ref(point), feature, name, RawShape::Breakline);
+                }
+            }
+            GeometryValue::Polygon { coordinates } if self.breakline => {
+                for ring in coordinates {
+                    self.line(ring, feature, name, RawShape::Breakline);
+                }
+            }
+            GeometryValue::MultiPolygon { coordinates } if self.breakline => {
+                for ring in coordinates.iter().flatten() {
+                    self.line(ring, feature, name, RawShape::Breakline);
+                }
+            }
             GeometryValue::Point { .. } => self.points += 1,
             GeometryValue::MultiPoint { coordinates } => self.points += coordinates.len(),
             GeometryValue::LineString { coordinates } => self.line(coordinates, feature, name, RawShape::Line),
@@ -201,6 +223,7 @@ impl<'a> Collector<'a> {
             self.empty += 1;
             return;
         }
+        let shape = if self.breakline { RawShape::Breakline } else { shape };
         let mut vertices = Vec::with_capacity(positions.len());
         for (i, position) in positions.iter().enumerate() {
             match *position.as_slice() {
@@ -217,7 +240,12 @@ impl<'a> Collector<'a> {
 
     fn finish(self, notes: &mut Vec<Note>) -> Result<Vec<RawLine>, ReadError> {
         self.defects.into_result().map_err(ReadError::Records)?;
-        if self.lines.is_empty() {
+        if self.lines.iter().all(|line| line.shape == RawShape::Breakline) {
+            if !self.lines.is_empty() {
+                let figures = format!("breaklines and spot heights: {}, lines: 0, polygons: 0", self.lines.len());
+                let help = "add the ring they lie in, or the centre line, without the property `role`";
+                return Err(content("the file holds breaklines, but no line", self.label.to_owned(), figures, help));
+            }
             let (what, figures) = if self.points > 0 {
                 ("the file holds points, but no line", format!("points: {}, lines: 0, polygons: 0", self.points))
             } else {
@@ -235,6 +263,12 @@ impl<'a> Collector<'a> {
         }
         Ok(self.lines)
     }
+}
+
+/// Whether the property `role` says `breakline`.
+fn is_breakline(feature: &Feature) -> bool {
+    let role = feature.properties.as_ref().and_then(|p| p.get("role").or_else(|| p.get("Role")));
+    role.and_then(JsonValue::as_str).is_some_and(|role| role.trim().eq_ignore_ascii_case("breakline"))
 }
 
 /// Name of a feature for messages: the property `name`, else its id.

@@ -2,6 +2,7 @@
 
 mod columns;
 mod csv;
+mod decimal;
 mod decode;
 mod error;
 mod geojson;
@@ -104,6 +105,8 @@ pub enum RawShape {
         /// Whether it is a hole.
         hole: bool,
     },
+    /// A line inside rings that shapes their platform (property `role` = `breakline`); of one vertex, a spot height.
+    Breakline,
 }
 
 /// One vertex as read.
@@ -137,7 +140,7 @@ pub struct RawLine {
 pub struct RawInput {
     /// Where it came from.
     pub source: Source,
-    /// The lines in the order of the file; at least one.
+    /// The lines in the order of the file; at least one that is no breakline.
     pub lines: Vec<RawLine>,
     /// What was seen on the way (dialect of a text file, features skipped).
     pub notes: Vec<Note>,

@@ -1,16 +1,16 @@
 //! The report for machines.
 
-use super::Report;
 use crate::write::EncodeError;
+use serde::Serialize;
 use serde_json::Value;
 use std::io::Write;
 
-/// Writes a report as indented JSON, schema `slopegen-report/1`, with a line break at the end.
+/// Writes a report as indented JSON, with a line break at the end.
 ///
 /// # Errors
 /// [`EncodeError::ReportNotFinite`] names the first figure that is NaN or infinite, and nothing is written;
 /// [`EncodeError::Report`] from the sink.
-pub fn write_json(out: &mut (impl Write + ?Sized), report: &Report) -> Result<(), EncodeError> {
+pub fn write_json(out: &mut (impl Write + ?Sized), report: &impl Serialize) -> Result<(), EncodeError> {
     // JSON has no NaN: serde_json turns it into null. No key of a report is ever null on purpose.
     if let Some(path) = first_null(&serde_json::to_value(report)?, "") {
         return Err(EncodeError::ReportNotFinite(path));
@@ -36,8 +36,8 @@ fn first_null(value: &Value, path: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::Detail;
     use crate::report::testing::{compare, full, least, on_ground};
+    use crate::report::{Detail, Report};
 
     fn json(report: &Report) -> String {
         let mut bytes = Vec::new();
@@ -53,6 +53,21 @@ mod tests {
     #[test]
     fn a_full_report_on_ground_is_pinned() {
         compare(&json(&on_ground()), include_str!("../../tests/golden/report_ground.json"), "report_ground.json");
+    }
+
+    #[test]
+    fn a_full_comparison_is_pinned() {
+        let write = |report| {
+            let mut bytes = Vec::new();
+            write_json(&mut bytes, &report).unwrap();
+            String::from_utf8(bytes).unwrap()
+        };
+        let golden = include_str!("../../tests/golden/between.json");
+        crate::report::testing::compare(&write(crate::report::between::testing::full()), golden, "between.json");
+        let least = write(crate::report::between::testing::least());
+        for key in ["cells", "_at", "within", "path\": \"site", "null"] {
+            assert!(!least.contains(key), "{key} in {least}");
+        }
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! What a run has to tell: as data ([`Report`]), as JSON for machines, as text for people.
 
+pub mod between;
+pub mod check;
 pub mod ground;
 pub mod json;
 pub mod model;
@@ -9,13 +11,15 @@ pub mod volumes;
 #[cfg(test)]
 mod testing;
 
+pub use between::BetweenReport;
+pub use check::{CHECK_SCHEMA, CheckReport, Checked, render_check};
 pub use ground::{
     Daylight, EndArea, FinishedFigures, GroundAreas, PadRow, SectionRow, SectionSlopes, SlopeRange, StationRow, TerrainFigures,
     ThreeSections, station_rows,
 };
 pub use json::write_json;
 pub use model::*;
-pub use text::write_text;
+pub use text::{write_between, write_text};
 pub use volumes::{Balance, BulkingFigures, CutFillFigures, DepthPlace, Depths, Reference, VolumeParts, Volumes};
 
 use crate::write::{EncodeError, Target, UnknownFormat, ending};
@@ -54,6 +58,17 @@ impl ReportFormat {
         match self {
             Self::Json => write_json(out, report),
             Self::Text => write_text(out, report),
+        }
+    }
+
+    /// Writes the report of a comparison in this format.
+    ///
+    /// # Errors
+    /// As [`write_json`] and [`write_between`].
+    pub fn write_between(self, out: &mut (impl Write + ?Sized), report: &BetweenReport) -> Result<(), EncodeError> {
+        match self {
+            Self::Json => write_json(out, report),
+            Self::Text => write_between(out, report),
         }
     }
 }

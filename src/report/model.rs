@@ -149,14 +149,23 @@ impl From<Slope> for SlopeFigures {
 pub struct LineFigures {
     /// Polylines and rings.
     pub chains: usize,
-    /// Vertices as given, repetitions merged.
+    /// Vertices as given, repetitions merged; of a road those of its edge.
     pub vertices: usize,
     /// Vertices the engine left out of its own copy of the line; the mesh has them all.
     pub simplified: usize,
     /// Greatest distance of a vertex left out from that copy.
     pub simplified_max: f64,
-    /// Plan length of all chains.
+    /// Plan length of all chains; of a road that of its centre line.
     pub length: f64,
+    /// Width of the roads made of open lines.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width: Option<f64>,
+    /// Their crossfall.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crossfall: Option<CrossfallFigures>,
+    /// Breaklines and spot heights on platforms; left out if there are none.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub breaklines: usize,
     /// Lowest elevation.
     pub z_min: f64,
     /// Highest elevation.
@@ -165,6 +174,20 @@ pub struct LineFigures {
     pub gradient_max: f64,
     /// Stretches that lie under the sheet of another part of the line.
     pub buried: Vec<BuriedStretch>,
+}
+
+/// Fall from the centre line of a road to its edges, rise per run; positive where the edge lies lower.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct CrossfallFigures {
+    /// To the left edge.
+    pub left: f64,
+    /// To the right edge.
+    pub right: f64,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "the shape serde asks for")]
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 /// A stretch of the line that does not appear in the surface because another part's sheet lies over it (or under it, for the

@@ -1,6 +1,9 @@
 //! The report for people.
 
+mod between;
 mod ground;
+
+pub use between::write_between;
 
 use super::{Certificate, ExtentKind, LineFigures, Report, SlopeFigures, SurfaceFigures, Volumes};
 use crate::model::Slope;
@@ -100,6 +103,17 @@ fn line(page: &mut Page<'_>, line: &LineFigures) {
         page.figure("  greatest shift", &short(line.simplified_max), page.unit);
     }
     page.length("length", line.length);
+    if let Some(width) = line.width {
+        page.length("width of roads", width);
+    }
+    if let Some(fall) = line.crossfall.filter(|fall| fall.left != 0.0 || fall.right != 0.0) {
+        let percent = |fall: f64| format!("{:.2}", 100.0 * fall);
+        let both = if fall.left == fall.right { percent(fall.left) } else { [fall.left, fall.right].map(percent).join(", ") };
+        page.figure("crossfall", &both, "%");
+    }
+    if line.breaklines > 0 {
+        page.count("breaklines", line.breaklines);
+    }
     page.length("lowest", line.z_min);
     page.length("highest", line.z_max);
     page.figure("greatest gradient", &format!("{:.2}", 100.0 * line.gradient_max), "%");

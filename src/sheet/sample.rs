@@ -89,7 +89,7 @@ mod tests {
     use crate::sheet::testing::Random;
 
     fn chain(role: Role, vertices: Vec<DVec3>) -> Chain {
-        Chain { name: "line".into(), role, places: vec![Place::default(); vertices.len()], vertices }
+        Chain { name: "line".into(), role, places: vec![Place::default(); vertices.len()], vertices, axis: None }
     }
 
     /// A wavy ring and a road across it (so that stretches lie buried), far from the origin.
@@ -106,7 +106,7 @@ mod tests {
         for i in 0..60 {
             road.push(far + DVec3::new(5.0 * f64::from(i) - 150.0, random.between(-2.0, 2.0), 0.02 * f64::from(i)));
         }
-        Line { chains: vec![chain(Role::Outer { polygon: 0 }, ring), chain(Role::Open, road)] }
+        Line { chains: vec![chain(Role::Outer { polygon: 0 }, ring), chain(Role::Open, road)], ..Line::default() }
     }
 
     /// The definition with no index and no frame: the best of 200 points of each segment. Too low by `k` times a hundredth
@@ -173,7 +173,10 @@ mod tests {
         let grid = Grid { xll: 10.0, yll: 20.0, cell: 2.0, ncols: 3, nrows: 4 };
         assert_eq!(grid.node(0, 3), DVec2::new(10.0, 20.0));
         assert_eq!(grid.node(2, 0), DVec2::new(14.0, 26.0));
-        let line = Line { chains: vec![chain(Role::Open, vec![DVec3::new(0.0, 26.0, 1.0), DVec3::new(10.0, 26.0, 1.0)])] };
+        let line = Line {
+            chains: vec![chain(Role::Open, vec![DVec3::new(0.0, 26.0, 1.0), DVec3::new(10.0, 26.0, 1.0)])],
+            ..Line::default()
+        };
         let heights = Heights::new(&line, Slope::from_ratio(0.5).expect("positive"), Sheet::Falling).raster(&grid);
         // The first row lies along the line, the last six off it: 1 − 6/2; the columns stand 0, 2 and 4 beyond its end.
         assert_eq!(heights[..3], [1.0, 0.0, -1.0]);

@@ -1,6 +1,6 @@
 //! Stretches of the line that lie below the slope of another part, in the words of the line: chains and stations.
 
-use crate::model::{Design, Line, Note, Sheet as SheetKind};
+use crate::model::{Chain, Design, Line, Note, Sheet as SheetKind};
 use crate::sheet::Segment;
 use crate::slope::closure::Closure;
 use crate::slope::network::{Edge, Given, Network, twin};
@@ -81,6 +81,7 @@ pub(crate) fn stretches(line: &Line, sheet: &Sheet, closure: &Closure) -> Found 
             parts.push((edge.given[0].chain as usize, Part { edge: e, s, covered, stations: at }));
         }
     }
+    let on_line = |chain: usize, stations: [f64; 2]| axis_stations(&line.chains[chain], stations);
     parts.sort_by(|a, b| (a.0, a.1.covered).cmp(&(b.0, b.1.covered)).then(a.1.stations[0].total_cmp(&b.1.stations[0])));
     let mut found = Found { stretches: Vec::new(), below: Vec::new() };
     let joins = |a: &(usize, Part), b: &(usize, Part)| {
@@ -89,12 +90,28 @@ pub(crate) fn stretches(line: &Line, sheet: &Sheet, closure: &Closure) -> Found 
     for group in parts.chunk_by(joins) {
         let (chain, from, to) = (group[0].0, group[0].1.stations[0], group[group.len() - 1].1.stations[1]);
         if group[0].1.covered {
-            found.stretches.push(describe(sheet, &stations, chain, [from, to], group));
+            let mut stretch = describe(sheet, &stations, chain, [from, to], group);
+            [stretch.from, stretch.to] = on_line(chain, [from, to]);
+            stretch.by_station = on_line(stretch.by_chain, [stretch.by_station; 2])[0];
+            found.stretches.push(stretch);
         } else {
             found.below.push((chain, from, to));
         }
     }
     found
+}
+
+/// Distances along the edge of a road as stations of its centre line, ascending; others stay what they are.
+fn axis_stations(chain: &Chain, along: [f64; 2]) -> [f64; 2] {
+    let Some(axis) = &chain.axis else { return along };
+    let edge = chain.stations();
+    let mut stations = along.map(|s| {
+        let i = edge.partition_point(|e| *e < s).clamp(1, edge.len() - 1);
+        let part = ((s - edge[i - 1]) / (edge[i] - edge[i - 1])).clamp(0.0, 1.0);
+        axis.stations[i - 1] + part * (axis.stations[i] - axis.stations[i - 1])
+    });
+    stations.sort_by(f64::total_cmp);
+    stations
 }
 
 /// The point of edge `edge` at plan distance `s` from its start.

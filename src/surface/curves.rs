@@ -13,6 +13,8 @@ pub enum Mark {
     Ridge,
     /// Part of the line: of the chain with this number.
     Hinge(u32),
+    /// Part of the breakline with this number.
+    Breakline(u32),
 }
 
 /// All line work of a surface, in a fixed order: `marks` are mesh edges (lower vertex first, sorted), `heights` the elevations of
@@ -24,6 +26,7 @@ pub fn lines(line: &Line, heights: &[f64], tin: &Tin, marks: &[(Mark, [u32; 2])]
             Mark::Level(u) => (CurveKind::LevelCurve, Some(heights[u as usize]), None),
             Mark::Valley => (CurveKind::Valley, None, None),
             Mark::Ridge => (CurveKind::Ridge, None, None),
+            Mark::Breakline(b) => (CurveKind::Breakline, None, Some(line.breaklines[b as usize].name.clone())),
             Mark::Hinge(chain) => (CurveKind::Hinge, None, Some(line.chains[chain as usize].name.clone())),
         };
         let segments: Vec<[u32; 2]> = group.iter().map(|(_, ends)| *ends).collect();

@@ -32,12 +32,17 @@ impl Foot {
     }
 }
 
-/// Stations of the vertices of each chain.
+/// Stations of the vertices of each chain: those on its centre line where it has one.
 pub(super) struct Stations(Vec<Vec<f64>>);
 
 impl Stations {
     pub(super) fn new(line: &Line) -> Self {
-        Self(line.chains.iter().map(|chain| chain.stations()).collect())
+        Self(
+            line.chains
+                .iter()
+                .map(|chain| chain.axis.as_ref().map_or_else(|| chain.stations(), |axis| axis.stations.clone()))
+                .collect(),
+        )
     }
 
     fn at(&self, given: Given) -> f64 {

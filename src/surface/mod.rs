@@ -5,6 +5,7 @@ mod certificate;
 pub mod curves;
 mod feet;
 mod flats;
+mod formation;
 mod solve;
 
 pub use buried::Buried;
@@ -12,6 +13,7 @@ pub use certificate::Certificate;
 pub use curves::Mark;
 pub use feet::Foot;
 
+use self::flats::Flats;
 use crate::kernel::sum::Sum;
 use crate::mesh::check::HalfEdges;
 use crate::mesh::region::RegionError;
@@ -169,6 +171,17 @@ pub struct Volumes {
     pub fill_max: f64,
 }
 
+/// Where a platform vertex of a road stands on the centre line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlatformStation {
+    /// The mesh vertex.
+    pub vertex: u32,
+    /// The chain: a road.
+    pub chain: u32,
+    /// Station on its centre line.
+    pub station: f64,
+}
+
 /// A surface of constant slope with its platform, and what was measured on it.
 #[derive(Clone, Debug)]
 pub struct Surface {
@@ -182,6 +195,9 @@ pub struct Surface {
     pub feet: Vec<Foot>,
     /// The facet of each slope triangle, an index into `feet`; slope triangles come first in the mesh.
     pub foot_of: Vec<u32>,
+    /// Platform vertices of roads (chains with an axis) with their stations on the centre line, by vertex and chain. The stations
+    /// of a point of a platform triangle are those of its corners, linear between them.
+    pub platform_stations: Vec<PlatformStation>,
     /// Elevations of the level curves, from the top down.
     pub levels: Vec<f64>,
     /// Given vertices moved onto a chord.
@@ -240,7 +256,7 @@ pub fn build(line: &Line, design: &Design, reference: Option<f64>, watch: &dyn W
         return Err(SurfaceError::Unsound { what: format!("a strip at ({:.3}, {:.3}) could not be triangulated", p.x, p.y) });
     }
     let buried = buried::stretches(line, &sheet, &solved.closure);
-    let flats = flats::fill(line, design, &network, &slopes, &buried.stretches)?;
+    let flats = flats::fill(line, design, &network, &mut slopes, &buried.stretches)?;
     go_on("certificate")?;
     let body = Body::new(&network, design, &slopes, &flats);
     let (feet, foot_of) = feet_of(line, &sheet, &slopes);
@@ -255,13 +271,14 @@ pub fn build(line: &Line, design: &Design, reference: Option<f64>, watch: &dyn W
     go_on("volumes")?;
     let areas = body.areas();
     let volumes = body.volumes(line, design, reference, &ends, network.simplified_max, cut.chord);
-    let mut notes = Vec::new();
+    let mut notes = flats.notes;
     notes.extend(buried.below_note(design));
     Ok(Surface {
         lines,
         marks,
         feet,
         foot_of,
+        platform_stations: body.stations,
         levels: heights,
         simplified: network.simplified,
         collinear: network.collinear,
@@ -356,12 +373,16 @@ pub(crate) struct Body {
     traces: Vec<emit::Traced>,
     /// Points of each edge of the network from end to end, in mesh numbers, with the given vertex where there is one.
     edge_points: Vec<Vec<emit::EdgePoint>>,
+    /// Stations of roads.
+    stations: Vec<PlatformStation>,
+    /// Edges of breaklines.
+    breaks: Vec<(Mark, [u32; 2])>,
 }
 
 impl Body {
-    fn new(network: &Network, design: &Design, slopes: &Slopes, flats: &[[u32; 3]]) -> Self {
+    fn new(network: &Network, design: &Design, slopes: &Slopes, flats: &Flats) -> Self {
         let mut number = vec![u32::MAX; slopes.points.len()];
-        for &v in slopes.triangles.as_flattened().iter().chain(flats.as_flattened()) {
+        for &v in slopes.triangles.as_flattened().iter().chain(flats.triangles.as_flattened()) {
             number[v as usize] = 0;
         }
         let mut vertices = Vec::with_capacity(slopes.points.len());
@@ -372,7 +393,7 @@ impl Body {
         }
         let renumber = |t: &[u32; 3]| t.map(|v| number[v as usize]);
         let part = if design.sheet == SheetKind::Falling { Part::FillSlope } else { Part::CutSlope };
-        let triangles: Vec<[u32; 3]> = slopes.triangles.iter().chain(flats).map(renumber).collect();
+        let triangles: Vec<[u32; 3]> = slopes.triangles.iter().chain(&flats.triangles).map(renumber).collect();
         let mut parts = vec![part; slopes.triangles.len()];
         parts.resize(triangles.len(), Part::Platform);
         let used = |ids: &[u32]| ids.iter().all(|&v| number[v as usize] != u32::MAX);
@@ -403,7 +424,16 @@ impl Body {
             .collect();
         let tin = Tin { frame: network.frame, vertices, triangles, parts };
         let on_cone = slopes.facets.iter().map(|&f| f as usize >= 2 * network.edges.len()).collect();
-        Self { tin, on_cone, traces, edge_points }
+        let stations = flats.stations.iter().filter(|(v, ..)| used(&[*v]));
+        let stations = stations.map(|&(v, chain, station)| PlatformStation { vertex: number[v as usize], chain, station });
+        let mut stations: Vec<PlatformStation> = stations.collect();
+        stations.sort_by_key(|s| (s.vertex, s.chain));
+        let breaks = flats.breaks.iter().filter(|(_, ends)| used(ends)).map(|&(breakline, ends)| {
+            let [a, b] = ends.map(|v| number[v as usize]);
+            (Mark::Breakline(breakline), [a.min(b), a.max(b)])
+        });
+        let breaks = breaks.collect();
+        Self { tin, on_cone, traces, edge_points, stations, breaks }
     }
 
     /// The traces in the words of the world.
@@ -413,7 +443,8 @@ impl Body {
             Trace::Crease => feet::crease(design.sheet),
             Trace::Hinge(e) => Mark::Hinge(network.edges[e as usize].given[0].chain),
         };
-        let mut marks: Vec<(Mark, [u32; 2])> = self.traces.iter().map(|&(trace, ends)| (mark(trace), ends)).collect();
+        let traces = self.traces.iter().map(|&(trace, ends)| (mark(trace), ends));
+        let mut marks: Vec<(Mark, [u32; 2])> = traces.chain(self.breaks.iter().copied()).collect();
         marks.sort_unstable();
         marks
     }

@@ -1,8 +1,9 @@
 //! What the coordinates of ground say by themselves: box, precision, degrees.
 
 use super::corners::Corners;
-use super::place::{defect, short};
-use crate::model::{Defects, Note};
+use super::place::{defect, point, short};
+use super::upright;
+use crate::model::{Defect, Defects, Note};
 use crate::read::{CoordinateKind, Source};
 use crate::validate::{self, INPUT_LIMIT};
 use glam::DVec3;
@@ -41,7 +42,26 @@ impl Coordinates {
         Self { lo, hi, single: bits & BEYOND_SINGLE == 0, fractions }
     }
 
-    pub(super) fn check(&self, source: &Source, defects: &mut Defects, notes: &mut Vec<Note>) {
+    /// Refuses markers for missing heights: their triangles would be cliffs.
+    fn no_data(&self, vertices: &[DVec3], source: &Source, defects: &mut Defects) {
+        if validate::no_data_markers([self.lo.z, self.hi.z].into_iter()).is_empty() {
+            return;
+        }
+        let markers = validate::no_data_markers(vertices.iter().map(|v| v.z));
+        const CODE: &str = "ground-no-data";
+        for (i, v) in vertices.iter().enumerate().filter(|(_, v)| markers.contains(&v.z)) {
+            defects.push(CODE, || Defect {
+                code: CODE,
+                what: "a point of the ground has a marker for a missing height".into(),
+                at: format!("{}, vertex {} at {}", source.label, i + 1, point(*v)),
+                figures: None,
+                help: "take such points out, and the faces that use them".into(),
+            });
+        }
+    }
+
+    /// Looks at box and precision of `vertices`.
+    pub(super) fn check(&self, vertices: &[DVec3], source: &Source, defects: &mut Defects, notes: &mut Vec<Note>) {
         let (lo, hi) = (self.lo, self.hi);
         let largest = lo.abs().max(hi.abs()).max_element();
         if !largest.is_finite() {
@@ -55,6 +75,11 @@ impl Coordinates {
             defects.extend(defect("ground-too-large", what, source.label.clone(), figures, help));
             return;
         }
+        if let Err(upright) = upright::far_up(&source.label, lo, hi) {
+            defects.extend(upright);
+            return;
+        }
+        self.no_data(vertices, source, defects);
         match validate::degrees(source, (lo.truncate(), hi.truncate())) {
             validate::Verdict::Lengths => {}
             validate::Verdict::Refused(defect) => defects.push(defect.code, || defect),
@@ -62,7 +87,7 @@ impl Coordinates {
         }
         // The widest step of single precision: 2⁻²³ of the power of two at or below the largest plan coordinate.
         let plan = lo.truncate().abs().max(hi.truncate().abs()).max_element();
-        let step = 2.0_f64.powi(plan.log2().floor() as i32 - 23);
+        let step = 2.0_f64.powi(plan.max(COARSE).log2().floor() as i32 - 23);
         // Whole numbers are single by themselves as long as its step is not wider than one.
         let telling = self.fractions || step > 1.0;
         if source.kind != CoordinateKind::Degrees && self.single && telling && step >= COARSE {

@@ -47,11 +47,12 @@ pub(super) fn check(
         notes.push(Note::new("ground-faces-turned", message));
     }
     if dropped > 0 {
-        let message = format!("{} of the ground without area in plan were dropped", counted(dropped, "triangle", "triangles"));
+        let message = format!("dropped {} of the ground without area in plan", counted(dropped, "triangle", "triangles"));
         notes.push(Note::new("ground-faces-degenerate", message));
     }
     if !twice.is_empty() {
-        let message = format!("{} of the ground given before were dropped", counted(twice.len(), "triangle", "triangles"));
+        let message =
+            format!("dropped {} of the ground that had been given before", counted(twice.len(), "triangle", "triangles"));
         notes.push(Note::new("ground-faces-repeated", message));
     }
     Ok(triangles)

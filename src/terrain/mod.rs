@@ -11,11 +11,13 @@ mod overlap;
 mod place;
 mod points;
 mod polygons;
+mod spikes;
 mod upright;
 mod weld;
 
 pub use inspect::{Findings, inspect};
 pub use overlap::check_overlap;
+pub use polygons::one as split_polygon;
 
 use crate::kernel::frame::Frame;
 use crate::model::{Defects, Note, Terrain};
@@ -61,7 +63,7 @@ pub fn prepare(raw: RawTerrain) -> Result<Prepared, Defects> {
     let seen = triangles.as_ref().map(|triangles| Corners::new(vertices.len(), triangles));
     let coordinates = Coordinates::new(&vertices, seen.as_ref());
     let mut defects = Defects::default();
-    coordinates.check(&source, &mut defects, &mut notes);
+    coordinates.check(&vertices, &source, &mut defects, &mut notes);
     defects.into_result()?;
     let frame = Frame::around(coordinates.lo.truncate(), coordinates.hi.truncate());
     if frame != Frame::WORLD {
@@ -70,6 +72,7 @@ pub fn prepare(raw: RawTerrain) -> Result<Prepared, Defects> {
     let mut terrain = Terrain { frame, vertices, triangles: Vec::new() };
     terrain.triangles = match (triangles, seen) {
         (Some(mut triangles), Some(seen)) => {
+            unused(terrain.vertices.len(), &seen, &mut notes);
             weld::weld(&terrain.vertices, &seen, &mut triangles, &mut notes);
             faces::check(&source.label, &coordinates, &terrain, triangles, &mut notes)?
         }
@@ -78,17 +81,14 @@ pub fn prepare(raw: RawTerrain) -> Result<Prepared, Defects> {
     if terrain.triangles.is_empty() {
         return Err(place::nothing_left(&source.label));
     }
-    unused(&terrain, &mut notes);
     Ok(Prepared { terrain, notes })
 }
 
-/// Counts the vertices no triangle uses.
-fn unused(terrain: &Terrain, notes: &mut Vec<Note>) {
-    let mut used = vec![false; terrain.vertices.len()];
-    terrain.triangles.as_flattened().iter().for_each(|&v| used[v as usize] = true);
-    let count = used.iter().filter(|&&used| !used).count();
-    if count > 0 {
-        let message = format!("{count} of {} vertices of the ground belong to no triangle", terrain.vertices.len());
+/// Counts the vertices no triangle uses in the file.
+fn unused(count: usize, seen: &Corners, notes: &mut Vec<Note>) {
+    let unused = (0..count).filter(|&v| !seen.used(v)).count();
+    if unused > 0 {
+        let message = format!("{unused} of {count} vertices of the ground belong to no triangle");
         notes.push(Note::new("ground-vertices-unused", message));
     }
 }

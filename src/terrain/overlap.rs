@@ -1,11 +1,161 @@
-//! Whether line and ground lie at the same place.
+//! Whether line and ground lie at the same place, and what may be wrong where they do not.
 
+use super::at;
+use super::place::{defect, short};
 use crate::model::{Defects, Line, Terrain};
+use glam::{DVec2, Vec2Swizzles};
 
-/// Refuses a line that lies beside the ground.
+/// Factors between length units: those of the line times the factor are those of the ground.
+const UNITS: [(f64, &str); 4] = [
+    (0.3048, "the line seems to be in feet and the ground in metres"),
+    (1.0 / 0.3048, "the line seems to be in metres and the ground in feet"),
+    (1200.0 / 3937.0, "the line seems to be in US survey feet and the ground in metres"),
+    (3937.0 / 1200.0, "the line seems to be in metres and the ground in US survey feet"),
+];
+
+/// Step of false eastings that carry a zone or a district number in front.
+const ZONE: f64 = 1e6;
+
+#[derive(Clone, Copy)]
+struct Box {
+    lo: DVec2,
+    hi: DVec2,
+}
+
+impl Box {
+    fn of(points: impl Iterator<Item = DVec2>) -> Self {
+        let empty = Self { lo: DVec2::INFINITY, hi: DVec2::NEG_INFINITY };
+        points.fold(empty, |b, p| Self { lo: b.lo.min(p), hi: b.hi.max(p) })
+    }
+
+    fn meets(&self, other: &Self) -> bool {
+        self.lo.cmple(other.hi).all() && other.lo.cmple(self.hi).all()
+    }
+
+    fn inside(&self, other: &Self) -> bool {
+        other.lo.cmple(self.lo).all() && self.hi.cmple(other.hi).all()
+    }
+
+    fn map(&self, of: impl Fn(DVec2) -> DVec2) -> Self {
+        Self::of([of(self.lo), of(self.hi)].into_iter())
+    }
+
+    fn text(&self) -> String {
+        format!("x {} to {}, y {} to {}", short(self.lo.x), short(self.hi.x), short(self.lo.y), short(self.hi.y))
+    }
+}
+
+/// Refuses a line of which no part can lie on the ground: their boxes in plan do not meet. Only vertices that triangles use
+/// count. `ground` and `label` name the files.
 ///
 /// # Errors
-/// Both boxes.
-pub fn check_overlap(_terrain: &Terrain, _ground: &str, _line: &Line, _label: &str) -> Result<(), Defects> {
-    Ok(())
+/// Both boxes, and what would make them meet where that is clear: axes exchanged, feet against metres, Y-up, a zone number in
+/// front of the easting.
+pub fn check_overlap(terrain: &Terrain, ground: &str, line: &Line, label: &str) -> Result<(), Defects> {
+    let world = |v: u32| terrain.frame.to_world(at(&terrain.vertices, v));
+    let field = Box::of(terrain.triangles.as_flattened().iter().map(|&v| world(v).truncate()));
+    let road = Box::of(line.chains.iter().flat_map(|chain| &chain.vertices).map(|v| v.truncate()));
+    if road.meets(&field) {
+        return Ok(());
+    }
+    let heights = || {
+        let corners = terrain.triangles.as_flattened().iter();
+        corners.map(|&v| world(v).z).fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), z| (lo.min(z), hi.max(z)))
+    };
+    let help = guess(&road, &field, heights)
+        .unwrap_or_else(|| "check that both are in the same reference system and unit, and belong together".into());
+    let apart = 0.5 * (field.lo + field.hi) - 0.5 * (road.lo + road.hi);
+    let figures = format!(
+        "line: {}\n   = ground `{ground}`: {}\n   = from the middle of the line to that of the ground: ({}, {})",
+        road.text(),
+        field.text(),
+        short(apart.x),
+        short(apart.y)
+    );
+    Err(defect("no-overlap", "line and ground do not lie at the same place", label.to_owned(), figures, &help))
+}
+
+fn guess(road: &Box, field: &Box, heights: impl Fn() -> (f64, f64)) -> Option<String> {
+    if road.map(|p| p.yx()).meets(field) {
+        return Some(
+            "easting and northing of one of them seem to be exchanged: name the columns, or exchange them in the file".into(),
+        );
+    }
+    // Both feet may fit: the one that puts the whole line on the ground fits better.
+    let scaled = |whole: bool| {
+        UNITS.iter().find(|(factor, _)| {
+            let road = road.map(|p| p * *factor);
+            if whole { road.inside(field) } else { road.meets(field) }
+        })
+    };
+    if let Some((_, what)) = scaled(true).or_else(|| scaled(false)) {
+        return Some(format!("{what}: convert one of them, heights as well"));
+    }
+    let (low, high) = heights();
+    for (lo, hi) in [(-high, -low), (low, high)] {
+        let upright = Box { lo: DVec2::new(field.lo.x, lo), hi: DVec2::new(field.hi.x, hi) };
+        if road.meets(&upright) {
+            return Some("`y` of the ground seems to be its height, and `z` its northing: export it with Z up".into());
+        }
+    }
+    let zones = ((field.lo.x + field.hi.x - road.lo.x - road.hi.x) / (2.0 * ZONE)).round();
+    if zones != 0.0 && road.map(|p| p + DVec2::new(zones * ZONE, 0.0)).meets(field) {
+        let which = if zones > 0.0 { "ground" } else { "line" };
+        return Some(format!(
+            "the eastings differ by {} million: that of the {which} seems to have the number of its zone in front; take it away",
+            zones.abs()
+        ));
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::frame::Frame;
+    use crate::model::{Chain, Place, Role};
+    use glam::{DVec2, DVec3};
+
+    fn message(line: &[(f64, f64)], corner: DVec3, size: DVec3) -> Option<String> {
+        let vertices: Vec<DVec3> = line.iter().map(|&(x, y)| DVec3::new(x, y, 5.0)).collect();
+        let places = vec![Place::default(); vertices.len()];
+        let line = Line {
+            chains: vec![Chain { name: "line 1".into(), role: Role::Open, vertices, places, axis: None }],
+            breaklines: Vec::new(),
+        };
+        let frame = Frame::around(corner.truncate(), (corner + size).truncate());
+        let ground = [DVec3::ZERO, DVec3::X, DVec3::Y + DVec3::Z].map(|p| frame.to_local(corner + p * size));
+        // A vertex no triangle uses must not count.
+        let vertices = [&ground[..], &[frame.to_local(DVec3::new(500_000.0, 5_400_000.0, 0.0))]].concat();
+        let terrain = Terrain { frame, vertices, triangles: vec![[0, 1, 2]] };
+        check_overlap(&terrain, "ground.obj", &line, "road.csv").err().map(|e| e.to_string())
+    }
+
+    #[test]
+    fn guesses() {
+        let line = [(500_000.0, 5_400_000.0), (500_100.0, 5_400_050.0)];
+        let size = DVec3::new(200.0, 200.0, 30.0);
+        let at = |x: f64, y: f64| DVec3::new(x, y, 100.0);
+        assert_eq!(message(&line, at(499_950.0, 5_399_950.0), size), None);
+        for (corner, size, words) in [
+            (at(5_399_950.0, 499_950.0), size, "exchanged"),
+            (at(499_950.0 / 0.3048, 5_399_950.0 / 0.3048), size / 0.3048, "line seems to be in metres and the ground in feet"),
+            (at(499_950.0 * 0.3048, 5_399_950.0 * 0.3048), size * 0.3048, "line seems to be in feet and the ground in metres"),
+            (at(499_950.0 * 1200.0 / 3937.0, 5_399_995.0 * 1200.0 / 3937.0), size, "US survey feet"),
+            (DVec3::new(499_950.0, 100.0, -5_400_100.0), DVec3::new(200.0, 30.0, 200.0), "export it with Z up"),
+            (at(32_499_950.0, 5_399_950.0), size, "differ by 32 million: that of the ground"),
+            (at(600_000.0, 5_399_950.0), size, "same reference system"),
+        ] {
+            let message = message(&line, corner, size).unwrap();
+            assert!(message.contains(words), "{words}\n{message}");
+        }
+        assert_eq!(
+            message(&line, at(0.0, 0.0), size).unwrap(),
+            "line and ground do not lie at the same place\n  --> road.csv\n   = line: x 500000 to 500100, y 5400000 to 5400050\n   \
+             = ground `ground.obj`: x 0 to 200, y 0 to 200\n   \
+             = from the middle of the line to that of the ground: (-499950, -5399925)\n   \
+             = help: check that both are in the same reference system and unit, and belong together"
+        );
+        assert!(Box::of([DVec2::ZERO].into_iter()).meets(&Box { lo: DVec2::ZERO, hi: DVec2::ONE }));
+    }
 }

@@ -34,7 +34,7 @@ pub(super) fn triangulate(label: &str, terrain: &Terrain, notes: &mut Vec<Note>)
         let help = "correct the coordinates";
         defect("ground-points", "the points of the ground cannot be triangulated", label.into(), cause.to_string(), help)
     })?;
-    let first = if triangulation.num_vertices() < points.len() { Some(firsts(label, terrain, notes)) } else { None };
+    let first = if triangulation.num_vertices() < points.len() { Some(firsts(terrain, notes)) } else { None };
     let number = |v: u32| first.as_ref().map_or(v, |first| first[v as usize]);
     let mut longest = (0.0, DVec3::ZERO);
     let mut triangles = Vec::with_capacity(triangulation.num_inner_faces());
@@ -70,7 +70,7 @@ fn settled(value: f64) -> f64 {
 }
 
 /// For each point the first at its place; tells of the others.
-fn firsts(label: &str, terrain: &Terrain, notes: &mut Vec<Note>) -> Vec<u32> {
+fn firsts(terrain: &Terrain, notes: &mut Vec<Note>) -> Vec<u32> {
     let mut places: FxHashMap<[u64; 2], u32> = FxHashMap::default();
     let (mut same, mut other) = (0, 0);
     let mut worst = (0.0, 0, 0);
@@ -94,14 +94,13 @@ fn firsts(label: &str, terrain: &Terrain, notes: &mut Vec<Note>) -> Vec<u32> {
     if same > 0 {
         notes.push(Note::new(
             "ground-points-repeated",
-            format!("{} given before were left out", counted(same, "point", "points")),
+            format!("left out {} that had been given before", counted(same, "point", "points")),
         ));
     }
     if other > 0 {
         let (gap, a, b) = worst;
         let message = format!(
-            "{} of {label} stand where an earlier one does but at another height, by up to {}: at {}, points {} and {}. The first \
-             is used",
+            "left out {} at the place of an earlier one but at another height, by up to {}: at {}, points {} and {}",
             counted(other, "point", "points"),
             short(gap),
             point(terrain.frame.to_world(terrain.vertices[a])),
@@ -199,7 +198,7 @@ mod tests {
         triangles[0].sort_unstable();
         assert_eq!(triangles, [[0, 1, 2]]);
         let text: Vec<&str> = notes.iter().map(|note| note.message.as_str()).collect();
-        assert!(text[0].starts_with("2 points given before"), "{text:?}");
+        assert!(text[0].starts_with("left out 2 points"), "{text:?}");
         assert!(text[1].contains("by up to 2.5: at (4, 0, 1), points 2 and 4"), "{text:?}");
     }
 }

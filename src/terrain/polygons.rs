@@ -41,8 +41,8 @@ pub(super) fn split(
     Ok(triangles)
 }
 
-/// `false` if the face is not simple.
-fn one(vertices: &[DVec3], face: &[u32], out: &mut Vec<[u32; 3]>) -> bool {
+/// Splits one face; `false`, and nothing is added, if it is not simple in plan.
+pub fn one(vertices: &[DVec3], face: &[u32], out: &mut Vec<[u32; 3]>) -> bool {
     let n = face.len();
     let plan = |i: usize| at(vertices, face[i % n]).truncate();
     let (mut left, mut right, mut around) = (0, 0, 0);

@@ -83,7 +83,7 @@ impl Panel {
 const MIXED: f64 = 0.1;
 
 /// How much larger the extent in `z` must be than that in `y`.
-const TALL: f64 = 4.0;
+const TALL: f64 = 2.0;
 
 /// Refuses ground whose `y` is its height, as modelling programs write it: seen along `z` it is a side view, with triangles of
 /// either direction, and `z` is a northing.
@@ -99,7 +99,25 @@ pub(super) fn y_up(label: &str, coordinates: &Coordinates, count: usize, turned:
         short(extent.y),
         short(extent.z)
     );
+    Err(on_its_side(label, figures))
+}
+
+/// Height in the length unit beyond which there is no ground, in metres or in feet.
+const HIGHEST: f64 = 1e5;
+
+/// Refuses ground with `y` as its height by its figures alone: `z` can be no height, and `y` can be one.
+pub(super) fn far_up(label: &str, lo: DVec3, hi: DVec3) -> Result<(), Defects> {
+    let extent = hi - lo;
+    let height = |lo: f64, hi: f64| lo.abs().min(hi.abs()) < HIGHEST || lo.signum() != hi.signum();
+    if height(lo.z, hi.z) || !height(lo.y, hi.y) || extent.z < extent.y {
+        return Ok(());
+    }
+    let figures = format!("y {} to {}, z {} to {}", short(lo.y), short(hi.y), short(lo.z), short(hi.z));
+    Err(on_its_side(label, figures))
+}
+
+fn on_its_side(label: &str, figures: String) -> Defects {
     let what = "the ground stands upright: `y` seems to be its height, and `z` its northing";
     let help = "export it with Z up, or exchange the columns: x, −z, y";
-    Err(defect("ground-y-up", what, label.to_owned(), figures, help))
+    defect("ground-y-up", what, label.to_owned(), figures, help)
 }

@@ -7,7 +7,9 @@ mod steep;
 mod vertices;
 
 pub use degrees::{Verdict, degrees};
+pub use place::Locator;
 pub use steep::check_steepness;
+pub use vertices::no_data_markers;
 
 use crate::model::{Defects, Line, Note};
 use crate::read::RawInput;
@@ -48,9 +50,19 @@ pub fn check(raw: &RawInput, options: &Options) -> Result<Checked, Defects> {
     let mut defects = Defects::default();
     let mut notes = Vec::new();
     degrees::check(raw, &mut defects, &mut notes);
-    let chains = vertices::chains(raw, *options, &mut defects, &mut notes);
-    rings::check(&raw.source.label, &chains, &mut defects);
+    let line = vertices::lines(raw, *options, &mut defects, &mut notes);
+    rings::check(&raw.source.label, &line.chains, &mut defects);
     defects.into_result()?;
-    // Without defects every raw line has become a chain.
-    Ok(Checked { line: Line { chains }, notes })
+    // Without defects every raw line has become a chain or a breakline.
+    Ok(Checked { line, notes })
+}
+
+/// Checks the rings of a line that was changed after [`check`].
+///
+/// # Errors
+/// All places where rings touch or cross themselves or cross each other, and holes outside of their polygons.
+pub fn check_rings(line: &Line, label: &str) -> Result<(), Defects> {
+    let mut defects = Defects::default();
+    rings::check(label, &line.chains, &mut defects);
+    defects.into_result()
 }

@@ -4,7 +4,7 @@ use crate::model::{Chain, Place};
 
 /// Says where vertices of one line stand: `road.geojson, feature 2, vertices 7 to 8` or `road.csv, row 34`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Locator<'a> {
+pub struct Locator<'a> {
     label: &'a str,
     /// Number of the line within its feature, where the feature has several.
     part: Option<u32>,
@@ -12,7 +12,7 @@ pub(super) struct Locator<'a> {
 
 impl<'a> Locator<'a> {
     /// A locator for each of a sequence of lines, given the feature each belongs to.
-    pub(super) fn of_features(label: &'a str, features: &[Option<u32>]) -> Vec<Self> {
+    pub fn of_features(label: &'a str, features: &[Option<u32>]) -> Vec<Self> {
         let mut part = 0;
         (0..features.len())
             .map(|i| {
@@ -25,13 +25,13 @@ impl<'a> Locator<'a> {
     }
 
     /// A locator for each chain.
-    pub(super) fn of_chains(label: &'a str, chains: &[Chain]) -> Vec<Self> {
+    pub fn of_chains(label: &'a str, chains: &[Chain]) -> Vec<Self> {
         let features: Vec<_> = chains.iter().map(|chain| chain.places.first().and_then(|p| p.feature)).collect();
         Self::of_features(label, &features)
     }
 
     /// The line as a whole.
-    pub(super) fn line(&self, feature: Option<u32>) -> String {
+    pub fn line(&self, feature: Option<u32>) -> String {
         let mut text = self.label.to_owned();
         if let Some(feature) = feature {
             text.push_str(&format!(", feature {feature}"));
@@ -43,7 +43,7 @@ impl<'a> Locator<'a> {
     }
 
     /// One vertex.
-    pub(super) fn vertex(&self, place: Place) -> String {
+    pub fn vertex(&self, place: Place) -> String {
         match place.row {
             Some(row) => format!("{}, row {row}", self.label),
             None => format!("{}, vertex {}", self.line(place.feature), place.vertex),
@@ -51,7 +51,7 @@ impl<'a> Locator<'a> {
     }
 
     /// A pair of vertices, e.g. the ends of a segment.
-    pub(super) fn pair(&self, a: Place, b: Place) -> String {
+    pub fn pair(&self, a: Place, b: Place) -> String {
         match (a.row, b.row) {
             (Some(a), Some(b)) => format!("{}, rows {a} to {b}", self.label),
             _ => format!("{}, vertices {} to {}", self.line(a.feature), a.vertex, b.vertex),
@@ -59,7 +59,7 @@ impl<'a> Locator<'a> {
     }
 
     /// A segment, without the file: for messages that name two.
-    pub(super) fn segment(&self, a: Place, b: Place) -> String {
+    pub fn segment(&self, a: Place, b: Place) -> String {
         let part = match (a.feature, self.part) {
             (Some(feature), Some(part)) => format!("feature {feature}, part {part}, "),
             (Some(feature), None) => format!("feature {feature}, "),

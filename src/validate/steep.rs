@@ -1,7 +1,7 @@
 //! Segments as steep as the slope, or steeper, cannot lie on a surface of that slope.
 
 use super::place::Locator;
-use crate::model::{Defect, Defects, Line, Slope};
+use crate::model::{Chain, Defect, Defects, Line, Slope};
 
 /// Refuses every segment with `|Δz| ≥ k·L`. Neighbouring steep segments are reported as one stretch, with its stations and
 /// its steepest gradient.
@@ -23,7 +23,7 @@ pub fn check_steepness(line: &Line, label: &str, slope: Slope) -> Result<(), Def
             let (a, b) = chain.segment(i);
             (b.z - a.z).abs() >= k * a.truncate().distance(b.truncate())
         };
-        let stations = chain.stations();
+        let stations = chain.axis.as_ref().map_or_else(|| chain.stations(), |axis| axis.stations.clone());
         let n = chain.segment_count();
         let mut i = 0;
         while i < n {
@@ -36,7 +36,9 @@ pub fn check_steepness(line: &Line, label: &str, slope: Slope) -> Result<(), Def
             defects.push("too-steep", || {
                 let worst = (from..end).map(|j| gradient(chain.segment(j)).abs()).fold(0.0, f64::max);
                 let name = &chain.name;
-                let (what, gradient) = if end - from == 1 {
+                let (what, gradient) = if chain.axis.is_some() {
+                    (format!("an edge of the road `{name}` is"), "steepest gradient")
+                } else if end - from == 1 {
                     (format!("segment {} of `{name}` is", from + 1), "gradient")
                 } else {
                     (format!("segments {} to {end} of `{name}` are", from + 1), "steepest gradient")
@@ -46,9 +48,10 @@ pub fn check_steepness(line: &Line, label: &str, slope: Slope) -> Result<(), Def
                     what: format!("{what} as steep as the slope asked for, or steeper"),
                     at: locator.pair(chain.places[from], chain.places[end % chain.places.len()]),
                     figures: Some(format!(
-                        "stations {:.3} to {:.3}: {gradient} {} ({:.1} %, {:.2}°); slope asked for 1V:{}H ({:.1} %, {:.2}°)",
-                        stations[from],
-                        stations[end],
+                        "stations {:.3} to {:.3}{}: {gradient} {} ({:.1} %, {:.2}°); slope asked for 1V:{}H ({:.1} %, {:.2}°)",
+                        stations[from].min(if chain.axis.is_some() { stations[end] } else { stations[from] }),
+                        stations[end].max(if chain.axis.is_some() { stations[from] } else { stations[end] }),
+                        along_axis(chain, stations[from], stations[end]),
                         significant(worst),
                         100.0 * worst,
                         worst.atan().to_degrees(),
@@ -62,6 +65,15 @@ pub fn check_steepness(line: &Line, label: &str, slope: Slope) -> Result<(), Def
         }
     }
     defects.into_result()
+}
+
+/// Where stations are those of a centre line: why its edge can be steeper than the line itself.
+fn along_axis(chain: &Chain, from: f64, to: f64) -> &'static str {
+    match &chain.axis {
+        None => "",
+        Some(_) if from == to => " of the centre line, across the road",
+        Some(_) => " of the centre line (the inside of a bend is shorter than the centre line)",
+    }
 }
 
 /// Rise per run; infinite only if a segment had no plan length, which the model excludes.
@@ -101,13 +113,13 @@ fn trimmed(text: String) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Chain, Place, Role};
+    use crate::model::{Place, Role};
     use glam::DVec3;
 
     fn line(points: &[[f64; 3]], role: Role) -> Line {
         let vertices: Vec<DVec3> = points.iter().map(|&p| p.into()).collect();
         let places = (0..points.len() as u32).map(|i| Place { feature: None, vertex: i + 1, row: Some(i + 2) }).collect();
-        Line { chains: vec![Chain { name: "line 1".into(), role, vertices, places }] }
+        Line { chains: vec![Chain { name: "line 1".into(), role, vertices, places, axis: None }], ..Line::default() }
     }
 
     #[test]

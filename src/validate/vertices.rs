@@ -2,7 +2,7 @@
 
 use super::place::Locator;
 use super::{INPUT_LIMIT, MERGE_DISTANCE, Options};
-use crate::model::{Chain, Defect, Defects, Note, Place, Role};
+use crate::model::{Breakline, Chain, Defect, Defects, Line, Note, Place, Role};
 use crate::read::{InputFormat, RawInput, RawLine, RawShape, RawVertex};
 use glam::DVec3;
 
@@ -27,16 +27,16 @@ struct Tally {
     last_polygon: Option<u32>,
 }
 
-/// The chains of all lines whose vertices are sound.
-pub(super) fn chains(raw: &RawInput, options: Options, defects: &mut Defects, notes: &mut Vec<Note>) -> Vec<Chain> {
+/// The chains and breaklines of all lines whose vertices are sound.
+pub(super) fn lines(raw: &RawInput, options: Options, defects: &mut Defects, notes: &mut Vec<Note>) -> Line {
     let features: Vec<_> = raw.lines.iter().map(|line| line.feature).collect();
     let locators = Locator::of_features(&raw.source.label, &features);
     if no_elevation_at_all(raw, defects) {
-        return Vec::new();
+        return Line::default();
     }
     let range = elevation_range(raw);
     let mut tally = Tally::default();
-    let mut chains = Vec::new();
+    let mut lines = Line::default();
     for (i, (line, locator)) in raw.lines.iter().zip(&locators).enumerate() {
         let mut unsound = Vec::new();
         for (j, vertex) in line.vertices.iter().enumerate() {
@@ -45,10 +45,16 @@ pub(super) fn chains(raw: &RawInput, options: Options, defects: &mut Defects, no
             }
         }
         let name = line.name.clone().unwrap_or_else(|| format!("line {}", i + 1));
-        chains.extend(chain(line, &unsound, name, options, locator, &mut tally, defects));
+        let before = defects.count();
+        let (vertices, places) = distinct(line, &unsound, locator, &mut tally, defects);
+        if line.shape != RawShape::Breakline {
+            lines.chains.extend(chain(line, vertices, places, before, &unsound, name, options, locator, &mut tally, defects));
+        } else if defects.count() == before && unsound.is_empty() {
+            lines.breaklines.push(Breakline { name, vertices, places, stations: None, of: None });
+        }
     }
     tally.notes(notes);
-    chains
+    lines
 }
 
 fn place(line: &RawLine, vertex: usize) -> Place {
@@ -86,7 +92,26 @@ fn no_elevation_help(format: InputFormat) -> &'static str {
 
 /// Lowest and highest elevation that is no marker.
 fn elevation_range(raw: &RawInput) -> (f64, f64) {
-    let elevations = raw.lines.iter().flat_map(|line| &line.vertices).filter_map(|vertex| vertex.z);
+    range_of(raw.lines.iter().flat_map(|line| &line.vertices).filter_map(|vertex| vertex.z))
+}
+
+/// Elevations among these that stand for none, such as −9999 far below all others.
+pub fn no_data_markers(elevations: impl Iterator<Item = f64> + Clone) -> Vec<f64> {
+    let listed = |z: &f64| z.abs() >= NO_DATA_MAGNITUDE || NO_DATA.contains(z);
+    let mut found: Vec<f64> = Vec::new();
+    for z in elevations.clone().filter(listed) {
+        if !found.contains(&z) && found.len() < NO_DATA.len() {
+            found.push(z);
+        }
+    }
+    if !found.is_empty() {
+        let range = range_of(elevations);
+        found.retain(|&z| is_no_data(z, range));
+    }
+    found
+}
+
+fn range_of(elevations: impl Iterator<Item = f64>) -> (f64, f64) {
     elevations
         .filter(|z| z.abs() < NO_DATA_MAGNITUDE && !NO_DATA.contains(z))
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), z| (lo.min(z), hi.max(z)))
@@ -143,17 +168,14 @@ fn same(a: DVec3, b: DVec3) -> bool {
     same_plan(a, b) && (a.z - b.z).abs() <= MERGE_DISTANCE
 }
 
-/// The chain of one line; `None` if it has a defect. The neighbours of sound vertices are checked in any case.
-fn chain(
+/// The sound vertices of a line without repetitions. Vertical steps between neighbours are defects.
+fn distinct(
     line: &RawLine,
     unsound: &[usize],
-    name: String,
-    options: Options,
     locator: &Locator<'_>,
     tally: &mut Tally,
     defects: &mut Defects,
-) -> Option<Chain> {
-    let before = defects.count();
+) -> (Vec<DVec3>, Vec<Place>) {
     let mut vertices: Vec<DVec3> = Vec::with_capacity(line.vertices.len());
     let mut places: Vec<Place> = Vec::with_capacity(line.vertices.len());
     let mut unsound_ahead = unsound.iter().peekable();
@@ -178,6 +200,23 @@ fn chain(
             }
         }
     }
+    (vertices, places)
+}
+
+/// The chain of one line from its distinct vertices; `None` if it has a defect (more of them than `before`).
+#[allow(clippy::too_many_arguments, reason = "one step of a sequence, parted from it for its length")]
+fn chain(
+    line: &RawLine,
+    mut vertices: Vec<DVec3>,
+    mut places: Vec<Place>,
+    before: usize,
+    unsound: &[usize],
+    name: String,
+    options: Options,
+    locator: &Locator<'_>,
+    tally: &mut Tally,
+    defects: &mut Defects,
+) -> Option<Chain> {
     let polygon_ring = matches!(line.shape, RawShape::Ring { .. });
     let mut repeats_first = false;
     // Closing vertices go; at least three must be left, else an out-and-back of two vertices stays an open line.
@@ -223,7 +262,7 @@ fn chain(
         return None;
     }
     let role = tally.role(line.shape, repeats_first, options);
-    Some(Chain { name, role, vertices, places })
+    Some(Chain { name, role, vertices, places, axis: None })
 }
 
 impl Tally {
@@ -245,7 +284,7 @@ impl Tally {
                 self.polygons += 1;
                 Role::Outer { polygon: self.polygons - 1 }
             }
-            RawShape::Line => Role::Open,
+            RawShape::Line | RawShape::Breakline => Role::Open,
         }
     }
 

@@ -50,6 +50,29 @@ fn all_outputs_at_once() {
 }
 
 #[test]
+fn a_road_about_a_centre_line() {
+    let site = Site::with("road.csv", "x,y,z\n0,0,10\n60,0,10\n60,40,10\n");
+    let report = site.run(
+        "build road.csv --slope 1:2 --width 6 --crossfall 2%,-2% --to-elevation 5 --report a.json --lines b.json --report -",
+    );
+    let report = report.done();
+    for line in ["width of roads                 6.000 m", "crossfall                2.00, -2.00 %"] {
+        assert!(report.contains(line), "{report}");
+    }
+    let json = site.read("a.json");
+    // 100 long, 6 wide, each half on a plane of 2 %.
+    let area = 600.0 * 0.02_f64.hypot(1.0);
+    assert!((figure(&json, "/surface/platform_area") - area).abs() < 1e-6, "{json}");
+    assert_eq!(figure(&json, "/line/length"), 100.0);
+    assert_eq!((figure(&json, "/line/crossfall/left"), figure(&json, "/line/crossfall/right")), (0.02, -0.02));
+    assert!(site.read("b.json").contains("\"breakline\""));
+    // The sheet of the edges: 4 outside of the left edge it has fallen by 2 from 10 − 0.06.
+    let run = site.run_with("sample road.csv --slope 1:2 --width 6 --crossfall 2% --at - --at-order xy", "30,7\n");
+    let height: f64 = run.done().trim().strip_prefix("x,y,z\n30,7,").unwrap().parse().unwrap();
+    assert!((height - 7.94).abs() < 1e-9, "{height}");
+}
+
+#[test]
 fn every_way_to_end_and_side() {
     let site = Site::new();
     for arguments in [

@@ -1,6 +1,7 @@
 //! The command line from outside: the program is run as people run it.
 
 mod build;
+mod check;
 mod golden;
 mod help;
 mod messages;
@@ -8,6 +9,7 @@ mod sample;
 mod streams;
 #[cfg(unix)]
 mod unix;
+mod volume;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -103,6 +103,57 @@ fn what_the_line_forbids() {
 }
 
 #[test]
+fn roads() {
+    refused(
+        "build road.geojson --slope 1:1.5 --width 8 --side both",
+        2,
+        "error: a road has its slopes outside\n  --> --side\n   = `--width` makes a ring of the edges of the road\n   \
+         = help: leave `--side` out; `outside` says the same",
+    );
+    refused(
+        "build road.geojson --slope 1:1.5 --width 8 --closed",
+        2,
+        "error: `--width` needs open lines, and `--closed` makes rings of them\n  --> --width\n   \
+         = help: leave `--closed` out for the centre line of a road, or `--width` for a ring",
+    );
+    refused(
+        "sample road.geojson --slope 1:1.5 --width -8 --crossfall 2.5 --at -",
+        2,
+        "error: `-8` is too small\n  --> --width -8\n   = help: give 0.001 or more\n\
+         error: `2.5` does not say which kind of slope it is\n  --> --crossfall 2.5\n   \
+         = help: write `2.5V:1H`, `2.5H:1V`, `2.5%` or `2.5deg`",
+    );
+    refused(
+        "build pad.geojson --slope 1:1.5 --width 8",
+        1,
+        "error: `--width` needs an open line, the centre line of a road\n  --> pad.geojson\n   = 1 rings, no open line\n   \
+         = help: leave `--width` out, or give the centre line as a line that does not end where it begins",
+    );
+    let site = Site::with("u.csv", "x,y,z\n0,0,1\n100,0,1\n100,5,1\n0,5,1\n");
+    site.run("build u.csv --slope 1:2 --width 8").refused(
+        1,
+        "error: the road of `line 1` lies on itself\n  --> u.csv, rows 2 to 5\n   = near stations 0.000 and 205.000 the centre \
+         line is 5.000 apart, the width is 8\n   = help: give `--width` 4.99 or less, move the legs apart, or build them one by one",
+    );
+    // Corners every 0.1 rad on a radius of 5, each 0.1 higher. Inner mitres stand on the radius 5 − 4 / cos 0.05 = 0.99499, and
+    // 2 · 0.99499 · sin 0.05 = 0.09946 apart: 0.1 / 0.09946 = 1.005.
+    let bend: String = (0..=20)
+        .map(|i| (f64::from(i) * 0.1).sin_cos())
+        .enumerate()
+        .map(|(i, (sin, cos))| format!("{},{},{}\n", 5.0 * sin, -5.0 * cos, 0.1 * i as f64))
+        .collect();
+    let site = Site::with("bend.csv", format!("x,y,z\n{bend}"));
+    let run = site.run("build bend.csv --slope 1:1.5 --width 8");
+    assert_eq!(run.code, 1, "{run:?}");
+    for part in [
+        "an edge of the road `line 1` is as steep as the slope asked for, or steeper\n  --> bend.csv, rows 3 to 21",
+        "of the centre line (the inside of a bend is shorter than the centre line): steepest gradient 1.005 (100.5 %, 45.16°)",
+    ] {
+        assert!(run.stderr.contains(part), "{}", run.stderr);
+    }
+}
+
+#[test]
 fn a_line_as_steep_as_the_slope() {
     let site = Site::with("ramp.csv", "x,y,z\n0,0,10\n10,0,10\n20,0,16\n30,0,16\n");
     // 6 up on 10 is 60 %; 1/0.6 = 1.667, so 1:1.66 is the flattest in three digits that is steeper.
@@ -190,7 +241,7 @@ fn usage() {
         "sample road.geojson --slope 1:2 --at pit.csv --cell 2",
         "sample road.geojson --slope 1:2 --at pit.csv -o heights.obj",
         "sample - --input-format csv --slope 1:2 --at -",
-        "volume a b",
+        "measure a b",
     ] {
         let site = Site::new();
         let run = site.run(arguments);

@@ -34,13 +34,13 @@ pub(crate) fn regular(n: usize, radius: f64, z: f64) -> Polyline {
 /// The library's line: every ring the outline of a polygon of its own.
 pub(crate) fn line(lines: &[Polyline]) -> Line {
     let role = |i: usize, l: &Polyline| if l.closed { Role::Outer { polygon: i as u32 } } else { Role::Open };
-    Line { chains: lines.iter().enumerate().map(|(i, l)| chain(i, l, role(i, l))).collect() }
+    Line { chains: lines.iter().enumerate().map(|(i, l)| chain(i, l, role(i, l))).collect(), ..Line::default() }
 }
 
 /// The library's line: one polygon, the first ring its outline, the others its holes.
 pub(crate) fn polygon(rings: &[Polyline]) -> Line {
     let role = |i: usize| if i == 0 { Role::Outer { polygon: 0 } } else { Role::Hole { polygon: 0 } };
-    Line { chains: rings.iter().enumerate().map(|(i, l)| chain(i, l, role(i))).collect() }
+    Line { chains: rings.iter().enumerate().map(|(i, l)| chain(i, l, role(i))).collect(), ..Line::default() }
 }
 
 fn chain(i: usize, line: &Polyline, role: Role) -> Chain {
@@ -49,6 +49,7 @@ fn chain(i: usize, line: &Polyline, role: Role) -> Chain {
         role,
         vertices: line.points.iter().map(|&p| DVec3::from(p)).collect(),
         places: vec![Place::default(); line.points.len()],
+        axis: None,
     }
 }
 

@@ -86,7 +86,7 @@ fn looks(bytes: &[u8]) -> Looks {
     let numbers = first
         .split(|b| matches!(b, b' ' | b'\t' | b',' | b';'))
         .filter(|field| !field.is_empty())
-        .filter(|field| super::decimal::number(field).is_some())
+        .filter(|field| crate::read::decimal::number(field).is_some())
         .count();
     if numbers >= 2 { Looks::Like(InputFormat::Csv) } else { Looks::Unknown }
 }

@@ -1,11 +1,14 @@
 //! Existing ground: bytes → raw meshes, points and grids, in world coordinates and in the order of the file.
 
 mod asc;
-mod decimal;
+
 mod kind;
+mod mesh;
 mod obj;
 mod ply;
 mod points;
+
+pub use mesh::{RawMesh, read_mesh};
 
 use super::{ColumnOrder, InputFormat, ReadError, Source};
 use crate::model::Note;
@@ -33,6 +36,21 @@ pub enum RawFaces {
         /// Where each face ends in `corners`.
         ends: Vec<usize>,
     },
+}
+
+impl RawFaces {
+    /// Number of faces.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Triangles(triangles) => triangles.len(),
+            Self::Polygons { ends, .. } => ends.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
 }
 
 /// Heights at the nodes of an upright grid.

@@ -15,6 +15,28 @@ use feed::Feed;
 use glam::DVec3;
 
 pub(super) fn read(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
+    let Loaded { vertices, faces, .. } = load(label, bytes, notes)?;
+    if let Some(at) = vertices.iter().position(|p| !p.is_finite()) {
+        return Err(diagnose::not_finite(label, &feed::with_line_ends(bytes), at));
+    }
+    let ground = match faces {
+        Some(faces) => RawGround::Mesh { vertices, faces },
+        None => RawGround::Points(vertices),
+    };
+    Ok((ground, Said::default()))
+}
+
+/// An OBJ file as it is.
+pub(super) struct Loaded {
+    /// Coordinates may be no numbers.
+    pub(super) vertices: Vec<DVec3>,
+    pub(super) faces: Option<RawFaces>,
+    /// Groups, or else objects: how many faces stand before each, and its name.
+    pub(super) groups: Vec<(usize, String)>,
+}
+
+/// Reads a file with whatever coordinates it has.
+pub(super) fn load(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Loaded, ReadError> {
     let bytes = feed::with_line_ends(bytes);
     let bytes = bytes.as_ref();
     let mut feed = Feed::new(label, bytes)?;
@@ -32,6 +54,8 @@ pub(super) fn read(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<(
     }
     let options = tobj::LoadOptions { single_index: false, triangulate: false, ignore_points: false, ignore_lines: false };
     let loaded = tobj::load_obj_buf(&mut feed, &options, |_| Err(tobj::LoadError::OpenFileFailed));
+    let [groups, objects] = std::mem::take(&mut feed.groups);
+    let groups = if groups.is_empty() { objects } else { groups };
     drop(feed);
     let mesh = match loaded.map(|(mut models, _)| models.pop()) {
         Ok(Some(model)) => model.mesh,
@@ -43,18 +67,15 @@ pub(super) fn read(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<(
         return Err(diagnose::explain(label, bytes, tobj::LoadError::GenericFailure));
     }
     let (points, _) = mesh.positions.as_chunks::<3>();
-    if let Some(at) = points.iter().position(|p| !(p[0].is_finite() && p[1].is_finite() && p[2].is_finite())) {
-        return Err(diagnose::not_finite(label, bytes, at));
-    }
     let vertices: Vec<DVec3> = points.iter().map(|&p| DVec3::from(p)).collect();
     // The face of all vertices is dropped again.
     let corners = &mesh.indices[count..];
     let arities = mesh.face_arities.get(1..).unwrap_or(&[]);
     if corners.is_empty() {
-        return Ok((RawGround::Points(vertices), Said::default()));
+        return Ok(Loaded { vertices, faces: None, groups });
     }
     let faces = faces(corners, arities).map_err(|face| diagnose::small_face(label, bytes, face))?;
-    Ok((RawGround::Mesh { vertices, faces }, Said::default()))
+    Ok(Loaded { vertices, faces: Some(faces), groups })
 }
 
 /// Faces of the given numbers of corners; without numbers all are triangles. The error is the first face of fewer than three.

@@ -13,16 +13,45 @@ use scan::{Miss, Scan, value};
 /// Names the list of a face goes by.
 const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
+/// Name of the property of faces that says what they belong to.
+const PART: &str = "part";
+
 pub(super) fn read(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
+    let Loaded { vertices, faces, .. } = load(label, bytes, notes)?;
+    if let Some(at) = vertices.iter().position(|v| !v.is_finite()) {
+        let v = vertices[at];
+        let at = format!("{label}, vertex {}", at + 1);
+        let help = "correct it, or take the vertex and its faces out";
+        return Err(refuse("a vertex is not finite", at, format!("({}, {}, {})", v.x, v.y, v.z), help));
+    }
+    let ground = match faces {
+        Some(faces) => RawGround::Mesh { vertices, faces },
+        None => RawGround::Points(vertices),
+    };
+    Ok((ground, Said::default()))
+}
+
+/// A PLY file as it is.
+pub(super) struct Loaded {
+    /// Coordinates may be no numbers.
+    pub(super) vertices: Vec<DVec3>,
+    pub(super) faces: Option<RawFaces>,
+    /// The property `part` of each face; empty if there is none.
+    pub(super) parts: Vec<f64>,
+}
+
+/// Reads a file with whatever coordinates it has.
+pub(super) fn load(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Loaded, ReadError> {
     let header = header::read(label, bytes)?;
     let mut vertices = None;
     let mut faces = None;
+    let mut parts = Vec::new();
     let mut scan = Scan::new(&bytes[header.body..], header.encoding);
     for element in &header.elements {
         let reader = Reader { label, header: &header, element };
         match element.name.as_str() {
             "vertex" => vertices = Some(reader.vertices(&mut scan)?),
-            "face" => faces = Some(reader.faces(&mut scan)?),
+            "face" => faces = Some(reader.faces(&mut scan, &mut parts)?),
             _ => {
                 if element.name == "tristrips" && element.count > 0 {
                     let help = "export the mesh with an element `face`";
@@ -41,14 +70,10 @@ pub(super) fn read(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<(
         let help = "export the mesh again, with an element `vertex`";
         return Err(refuse("the PLY file has no vertices", label, "there is no element `vertex`, or it is empty", help));
     };
-    let ground = match faces {
-        Some(faces) if faces.len() > 0 => {
-            let faces = faces.finish();
-            check_indices(label, &faces, vertices.len())?;
-            RawGround::Mesh { vertices, faces }
-        }
-        _ => RawGround::Points(vertices),
-    };
+    let faces = faces.filter(|faces| faces.len() > 0).map(Faces::finish);
+    if let Some(faces) = &faces {
+        check_indices(label, faces, vertices.len())?;
+    }
     let others: Vec<&str> = header
         .elements
         .iter()
@@ -58,7 +83,7 @@ pub(super) fn read(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<(
     if !others.is_empty() {
         notes.push(Note::new("ply-elements-ignored", format!("elements passed over: `{}`", others.join("`, `"))));
     }
-    Ok((ground, Said::default()))
+    Ok(Loaded { vertices, faces, parts })
 }
 
 fn check_indices(label: &str, faces: &RawFaces, count: usize) -> Result<(), ReadError> {
@@ -153,12 +178,6 @@ impl Reader<'_> {
                 }
             }
         }
-        if let Some(at) = vertices.iter().position(|v| !v.is_finite()) {
-            let v = vertices[at];
-            let at = format!("{}, vertex {}", self.label, at + 1);
-            let help = "correct it, or take the vertex and its faces out";
-            return Err(refuse("a vertex is not finite", at, format!("({}, {}, {})", v.x, v.y, v.z), help));
-        }
         if u32::try_from(vertices.len()).is_err() {
             let figures = format!("{}", vertices.len());
             return Err(refuse("the PLY file has too many vertices", self.label, figures, "cut the ground down to the site"));
@@ -213,7 +232,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn faces(&self, scan: &mut Scan<'_>) -> Result<Faces, ReadError> {
+    fn faces(&self, scan: &mut Scan<'_>, parts: &mut Vec<f64>) -> Result<Faces, ReadError> {
         if self.element.count == 0 {
             return Ok(Faces::with_capacity(0));
         }
@@ -240,10 +259,12 @@ impl Reader<'_> {
                 done += 1;
             }
         }
+        let part = self.element.find(&[PART]);
         let mut corners = Vec::new();
         for index in done..self.element.count {
             corners.clear();
-            self.face(scan, place, &mut corners).map_err(|miss| self.wrong(index, miss))?;
+            let own = self.face(scan, place, part, &mut corners).map_err(|miss| self.wrong(index, miss))?;
+            parts.extend(own);
             match corners[..] {
                 [a, b, c] => faces.triangle([a, b, c]),
                 [_, _, _, ..] => faces.polygon(&corners),
@@ -257,9 +278,12 @@ impl Reader<'_> {
         Ok(faces)
     }
 
-    fn face(&self, scan: &mut Scan<'_>, place: usize, corners: &mut Vec<u32>) -> Result<(), Miss> {
+    /// One face; its part, where it has one.
+    fn face(&self, scan: &mut Scan<'_>, place: usize, part: Option<usize>, corners: &mut Vec<u32>) -> Result<Option<f64>, Miss> {
+        let mut own = None;
         for (i, property) in self.element.properties.iter().enumerate() {
             match property.kind {
+                Kind::One(scalar) if Some(i) == part => own = Some(scan.number(scalar)?),
                 Kind::One(scalar) => scan.skip(1, scalar)?,
                 Kind::List { count, item } => {
                     let count = scan.whole(count)?;
@@ -273,7 +297,7 @@ impl Reader<'_> {
                 }
             }
         }
-        Ok(())
+        Ok(own)
     }
 
     fn pass_over(&self, scan: &mut Scan<'_>) -> Result<(), ReadError> {

@@ -5,7 +5,7 @@ use glam::DVec3;
 fn ring(name: &str, role: Role, points: &[(f64, f64)]) -> Chain {
     let vertices = points.iter().map(|&(x, y)| DVec3::new(x, y, 1.0)).collect();
     let places = (1..=points.len() as u32).map(|vertex| Place { feature: Some(1), vertex, row: None }).collect();
-    Chain { name: name.into(), role, vertices, places }
+    Chain { name: name.into(), role, vertices, places, axis: None }
 }
 
 fn outer(name: &str, polygon: u32, points: &[(f64, f64)]) -> Chain {

@@ -1,8 +1,8 @@
 //! Which line of an OBJ file is wrong, and how.
 
-use super::super::{clip, decimal, refuse};
+use super::super::{clip, refuse};
 use super::feed::{line_at, without_comment};
-use crate::read::ReadError;
+use crate::read::{ReadError, decimal};
 
 fn at_line(label: &str, bytes: &[u8], at: usize, what: &str, figures: impl FnOnce(&str) -> String, help: &str) -> ReadError {
     let (number, line) = line_at(bytes, at);

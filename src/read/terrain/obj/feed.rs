@@ -39,12 +39,10 @@ pub(super) fn with_line_ends(bytes: &[u8]) -> Cow<'_, [u8]> {
 }
 
 /// Statements of OBJ that have nothing to say about ground, in files of triangles.
-const PASSED_OVER: [&[u8]; 33] = [
+const PASSED_OVER: [&[u8]; 31] = [
     b"vt",
     b"vn",
     b"vp",
-    b"o",
-    b"g",
     b"s",
     b"mg",
     b"mtllib",
@@ -94,6 +92,10 @@ pub(super) struct Feed<'a> {
     pub(super) vertices: usize,
     /// Points and polylines left out.
     pub(super) skipped: usize,
+    /// Faces of the file.
+    faces: usize,
+    /// Groups (`g`) and objects (`o`): how many faces stand before each, and its name.
+    pub(super) groups: [Vec<(usize, String)>; 2],
 }
 
 impl<'a> Feed<'a> {
@@ -102,7 +104,16 @@ impl<'a> Feed<'a> {
     /// # Errors
     /// For lines that `tobj` would accept although they are wrong.
     pub(super) fn new(label: &str, bytes: &'a [u8]) -> Result<Self, ReadError> {
-        let mut feed = Self { bytes, made: Vec::new(), pieces: Vec::new(), at: (0, 0), vertices: 0, skipped: 0 };
+        let mut feed = Self {
+            bytes,
+            made: Vec::new(),
+            pieces: Vec::new(),
+            at: (0, 0),
+            vertices: 0,
+            skipped: 0,
+            faces: 0,
+            groups: [Vec::new(), Vec::new()],
+        };
         let start = if bytes.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
         let mut begin = start;
         while begin < bytes.len() {
@@ -131,7 +142,10 @@ impl<'a> Feed<'a> {
                 // The usual case: three numbers and nothing else.
                 if fields(rest) == 3 && memchr(b'#', rest).is_none() { self.given(range) } else { self.vertex(label, range)? }
             }
-            [b'f', b' ' | b'\t', rest @ ..] if memchr(b'#', rest).is_none() => self.given(range),
+            [b'f', b' ' | b'\t', rest @ ..] if memchr(b'#', rest).is_none() => {
+                self.faces += 1;
+                self.given(range);
+            }
             _ => {
                 let bare = without_comment(line).trim_ascii();
                 let word = bare.split(u8::is_ascii_whitespace).next().unwrap_or(bare);
@@ -142,12 +156,17 @@ impl<'a> Feed<'a> {
                         self.vertex(label, range)?;
                     }
                     b"f" => {
+                        self.faces += 1;
                         let from = self.made.len();
                         self.made.extend_from_slice(bare);
                         self.made.push(b'\n');
                         self.pieces.push(Piece::Made(from..self.made.len()));
                     }
                     b"l" | b"p" => self.skipped += 1,
+                    b"g" | b"o" => {
+                        let name = String::from_utf8_lossy(bare[1..].trim_ascii()).into_owned();
+                        self.groups[usize::from(word == b"o")].push((self.faces, name));
+                    }
                     word if PASSED_OVER.contains(&word) => {}
                     _ => return Err(diagnose::unknown(label, self.bytes, range.start)),
                 }
@@ -171,7 +190,7 @@ impl<'a> Feed<'a> {
         match rest.as_slice() {
             // Fewer than three numbers are found by `tobj`.
             [] | [_, _, _] | [_, _, _, _] => {}
-            [weight] if super::super::decimal::number(weight) == Some(1.0) => {}
+            [weight] if crate::read::decimal::number(weight) == Some(1.0) => {}
             [_] => return Err(diagnose::weight(label, self.bytes, range.start)),
             _ => return Err(diagnose::fields(label, self.bytes, range.start)),
         }

@@ -1,7 +1,7 @@
 //! Numbers one after the other, from text or from bytes.
 
-use super::super::decimal;
 use super::header::{Encoding, Scalar};
+use crate::read::decimal;
 
 /// Why there is no number.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,7 +111,8 @@ mod tests {
             (0, 0.0),
             (0x3F80_0000, 1.0),
             (0xC020_0000, -2.5),
-            (0x3DCC_CCCD, 0.100000001490116119384765625),
+            // 13 421 773 / 2²⁷, the nearest to 0.1.
+            (0x3DCC_CCCD, 13_421_773.0 / 134_217_728.0),
             (0x4AB4_7D38, 5_914_268.0),
             (1, 2.0_f64.powi(-149)),
             (0x7F7F_FFFF, (2.0 - 2.0_f64.powi(-23)) * 2.0_f64.powi(127)),

@@ -1,0 +1,139 @@
+//! Times of reading existing ground in every format: 1 million vertices (or the number given) with 2 million triangles, or as
+//! points. `just bench` prints the table of `docs/performance.md`.
+//!
+//! Every case writes its own file and runs in a process of its own, so that the peak of memory is its own as well.
+#![allow(clippy::print_stdout, reason = "the table is the product")]
+
+use slopegen::read::terrain::{TerrainOptions, read_terrain};
+use slopegen::terrain;
+use std::fmt::Write as _;
+use std::path::Path;
+use std::time::Instant;
+
+const CASES: [&str; 5] = ["ply", "obj", "asc", "csv", "xyz"];
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
+    if let [path] = &arguments[..]
+        && path.contains('.')
+    {
+        run(Path::new(path));
+        return;
+    }
+    let count: usize = arguments.first().map_or(1_000_000, |n| n.parse().expect("a number of vertices"));
+    println!("milliseconds, wall and (CPU); ground of {count} vertices, coordinates to 0.0001");
+    println!("{:>5} {:>7} {:>13} {:>13} {:>13} {:>10} {:>6}", "case", "file MB", "read", "prepare", "inspect", "triangles", "MB");
+    let this = std::env::current_exe().expect("own path");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for case in CASES {
+        let path = folder.path().join(format!("ground.{case}"));
+        write(case, count, &path);
+        let out = std::process::Command::new(&this).arg(&path).output().expect("a run of one case");
+        print!("{}", String::from_utf8_lossy(&out.stdout));
+        std::fs::remove_file(path).expect("the file of the case");
+    }
+}
+
+fn height(x: f64, y: f64) -> f64 {
+    100.0 + 20.0 * (x / 173.0).sin() + 15.0 * (y / 131.0).cos() + 0.7 * (x / 7.0).sin() * (y / 9.0).sin()
+}
+
+/// Writes ground of about `count` vertices on a jittered grid of steps of 2 (a plain grid as `asc`).
+fn write(case: &str, count: usize, path: &Path) {
+    let n = (count as f64).sqrt().round() as usize;
+    let mut state = 7_u64;
+    let mut jitter = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as f64 / f64::from(1_u32 << 31) - 0.5
+    };
+    let points: Vec<[f64; 3]> = (0..n * n)
+        .map(|i| {
+            let (x, y) = (2.0 * (i % n) as f64 + jitter(), 2.0 * (i / n) as f64 + jitter());
+            [500_000.0 + x, 5_400_000.0 + y, height(x, y)].map(|v| (v * 1e4).round() / 1e4)
+        })
+        .collect();
+    let triangles = (0..(n - 1) * (n - 1)).flat_map(|i| {
+        let a = i / (n - 1) * n + i % (n - 1);
+        [[a, a + 1, a + n + 1], [a, a + n + 1, a + n]]
+    });
+    let mut text = String::new();
+    let mut bytes = Vec::new();
+    match case {
+        "ply" => {
+            let _ = write!(
+                text,
+                "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double \
+                 z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
+                n * n,
+                2 * (n - 1) * (n - 1)
+            );
+            bytes.extend(text.bytes());
+            points.iter().flatten().for_each(|v| bytes.extend(v.to_le_bytes()));
+            for t in triangles {
+                bytes.push(3);
+                t.into_iter().for_each(|v| bytes.extend((v as u32).to_le_bytes()));
+            }
+        }
+        "obj" => {
+            for [x, y, z] in points {
+                let _ = writeln!(text, "v {x:.4} {y:.4} {z:.4}");
+            }
+            for [a, b, c] in triangles {
+                let _ = writeln!(text, "f {} {} {}", a + 1, b + 1, c + 1);
+            }
+        }
+        "asc" => {
+            let _ = write!(text, "ncols {n}\nnrows {n}\nxllcorner 500000\nyllcorner 5400000\ncellsize 2\n");
+            for row in points.chunks(n) {
+                for [_, _, z] in row {
+                    let _ = write!(text, "{z:.4} ");
+                }
+                text.push('\n');
+            }
+        }
+        _ => {
+            let separator = if case == "csv" { ',' } else { ' ' };
+            text.push_str(if case == "csv" { "x,y,z\n" } else { "" });
+            for [x, y, z] in points {
+                let _ = writeln!(text, "{x:.4}{separator}{y:.4}{separator}{z:.4}");
+            }
+        }
+    }
+    std::fs::write(path, if bytes.is_empty() { text.into_bytes() } else { bytes }).expect("room for the file");
+}
+
+/// Milliseconds of wall clock, and of all threads.
+fn timed<T>(work: impl FnOnce() -> T) -> (T, String) {
+    let (begun, cpu) = (Instant::now(), cpu_ms());
+    let result = work();
+    (result, format!("{:.0} ({:.0})", begun.elapsed().as_secs_f64() * 1e3, cpu_ms() - cpu))
+}
+
+fn run(path: &Path) {
+    let (raw, read) = timed(|| read_terrain(path, &TerrainOptions::default()).expect("sound ground"));
+    let (prepared, prepare) = timed(|| terrain::prepare(raw).expect("sound ground"));
+    let peak = peak_mb();
+    let (findings, inspect) = timed(|| terrain::inspect("ground", &prepared.terrain));
+    assert!(findings.defects.is_empty(), "{}", findings.defects);
+    let case = path.extension().and_then(|e| e.to_str()).unwrap_or("");
+    let size = std::fs::metadata(path).map_or(0, |m| m.len()) as f64 / 1e6;
+    let count = prepared.terrain.triangles.len();
+    println!("{case:>5} {size:>7.1} {read:>13} {prepare:>13} {inspect:>13} {count:>10} {peak:>6.0}");
+}
+
+/// CPU time of the process so far (Linux; elsewhere 0).
+fn cpu_ms() -> f64 {
+    /// Clock ticks in a second, the same on all Linux systems in use.
+    const TICKS: f64 = 100.0;
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let after = stat.rsplit(") ").next().unwrap_or("");
+    let ticks: f64 = after.split(' ').skip(11).take(2).filter_map(|n| n.parse::<f64>().ok()).sum();
+    ticks / TICKS * 1e3
+}
+
+/// Peak of resident memory (Linux; elsewhere 0).
+fn peak_mb() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find(|line| line.starts_with("VmHWM"));
+    line.and_then(|line| line.split_whitespace().nth(1)?.parse::<f64>().ok()).map_or(0.0, |kb| kb / 1e3)
+}

@@ -1,0 +1,127 @@
+//! `slopegen check`: arguments and job.
+
+use super::args::Running;
+use super::help;
+use super::job::{Checks, LEAST_LENGTH, UsageErrors, targets};
+use super::number::{self, Rule};
+use crate::pipeline::{CheckJob, SlopeWish};
+use crate::read::InputFormat;
+use crate::report::ReportFormat;
+use crate::write::Target;
+use clap::{Args, ValueEnum};
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+/// More places than anybody reads.
+const MOST_PLACES: usize = 10_000;
+
+#[derive(Debug, Args)]
+pub(super) struct CheckArgs {
+    /// The mesh: .obj or .ply; - is standard input
+    #[arg(value_name = "MESH")]
+    pub(super) mesh: PathBuf,
+    /// Format of the mesh [default: by its extension, else by its content]
+    #[arg(long, value_enum, value_name = "FORMAT", help_heading = help::INPUT)]
+    pub(super) input_format: Option<MeshFormatArg>,
+
+    /// A slope to be kept: 1:1.5, 2H:1V, 1in2, 50% or 26.57deg
+    ///
+    /// Asked of the parts `fill_slope` and `cut_slope` if the mesh has such groups, else of all triangles that are not level.
+    #[arg(short, long, value_name = "S", allow_hyphen_values = true, help_heading = help::CHECKS)]
+    pub(super) slope: Option<String>,
+    /// Triangles within D degrees are on the slope
+    #[arg(long, value_name = "D", default_value = "0.1", allow_negative_numbers = true, help_heading = help::CHECKS)]
+    pub(super) tolerance_deg: String,
+    /// Share of the area in percent that may be off the slope
+    #[arg(long, value_name = "P", default_value = "0", allow_negative_numbers = true, help_heading = help::CHECKS)]
+    pub(super) max_off: String,
+    /// Ask the slope of this group of the mesh only; may be repeated
+    #[arg(long, value_name = "NAME", requires = "slope", help_heading = help::CHECKS)]
+    pub(super) part: Vec<String>,
+    /// Distance within which vertices and edges should be joined [default: 0.001, or a hundredth of the median side if less]
+    #[arg(long, value_name = "G", allow_negative_numbers = true, help_heading = help::CHECKS)]
+    pub(super) gap: Option<String>,
+
+    /// Places told of each kind of finding
+    #[arg(long, value_name = "N", default_value = "3", allow_negative_numbers = true, help_heading = help::OUTPUT)]
+    pub(super) places: String,
+    /// Write the report; .json or .txt, may be repeated [default: as text to standard output]
+    #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
+    pub(super) report: Vec<OsString>,
+
+    #[command(flatten)]
+    pub(super) running: Running,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum MeshFormatArg {
+    Obj,
+    Ply,
+}
+
+/// The job of `slopegen check`.
+///
+/// # Errors
+/// Everything wrong with the arguments.
+pub(super) fn check_job(args: &CheckArgs) -> Result<CheckJob, UsageErrors> {
+    let mut checks = Checks::default();
+    let slope = checks.slope("--slope", args.slope.as_ref());
+    let tolerance = checks.number("--tolerance-deg", Some(&args.tolerance_deg), Rule::Positive);
+    let most_off = checks.take(share("--max-off", &args.max_off));
+    let gap = checks.number("--gap", args.gap.as_ref(), Rule::AtLeast(LEAST_LENGTH));
+    let places = checks.take(places(&args.places));
+    let mut reports = Vec::new();
+    for target in targets(&args.report) {
+        let format = checks.format(ReportFormat::of(&target));
+        reports.extend(format.map(|format| (target, format)));
+    }
+    if !reports.iter().any(|(target, _)| *target == Target::Stdout) && !args.running.quiet {
+        reports.push((Target::Stdout, ReportFormat::Text));
+    }
+    let format = args.input_format.map(|format| match format {
+        MeshFormatArg::Obj => InputFormat::Obj,
+        MeshFormatArg::Ply => InputFormat::Ply,
+    });
+    let job = tolerance.zip(most_off).zip(places).map(|((tolerance_deg, most_off), places)| CheckJob {
+        path: args.mesh.clone(),
+        format,
+        slope: slope.map(|slope| SlopeWish { slope, tolerance_deg, most_off, parts: args.part.clone() }),
+        gap,
+        places,
+        reports,
+    });
+    checks.finish(job)
+}
+
+/// A share given in percent, with or without its sign.
+fn share(option: &str, text: &str) -> Result<f64, String> {
+    let percent = number::read(option, text.trim().trim_end_matches('%'), Rule::AtLeast(0.0))?;
+    if percent > 100.0 {
+        return Err(format!("`{text}` is more than all\n  --> {option} {text}\n   = help: give a percentage from 0 to 100"));
+    }
+    Ok(percent / 100.0)
+}
+
+fn places(text: &str) -> Result<usize, String> {
+    match text.trim().parse::<usize>() {
+        Ok(n) if n <= MOST_PLACES => Ok(n),
+        _ => Err(format!(
+            "`{text}` is not a number of places\n  --> --places {text}\n   = help: give a whole number from 0 to {MOST_PLACES}"
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares() {
+        for (text, expected) in [("0", 0.0), ("5", 0.05), ("2.5%", 0.025), ("100 %", 1.0)] {
+            assert_eq!(share("--max-off", text), Ok(expected), "{text}");
+        }
+        for text in ["-1", "101", "x", "%", "nan"] {
+            assert!(share("--max-off", text).is_err(), "{text}");
+        }
+    }
+}

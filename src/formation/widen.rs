@@ -1,0 +1,246 @@
+//! From a centre line to the ring of its road.
+
+use super::breaklines::Inside;
+use super::edge::{Centre, EdgePoint, Fault, left};
+use super::{Formation, FormationError, Formed};
+use crate::kernel::orientation::{Turn, turn};
+use crate::kernel::segment_tree::SegmentTree;
+use crate::model::{Axis, Breakline, Chain, Line, Note, Role};
+use crate::validate::{Locator, MERGE_DISTANCE, check_rings};
+use glam::DVec2;
+
+/// Steps in height at tight bends below this (length units) are not worth a note.
+const LEAST_STEP: f64 = 0.001;
+
+/// Makes a ring of every open chain: left edge, straight end, right edge, straight end, the centre line a breakline inside.
+///
+/// Edge points lie on the bisector of the two segments that meet at a vertex of the centre line, at half the width from both, and
+/// `crossfall` times half the width lower than the vertex. The outside of corners sharper than [`super::LONGEST_MITRE`] is
+/// rounded at the height of its vertex. On the inside of a bend tighter than half the width the edge ends where its two legs
+/// cross, at their mean height; the step is levelled over one width of edge on both sides. Vertices of the ring know the vertex
+/// of the centre line they come from (`places`) and its station (`axis`). Rings stay what they are.
+///
+/// Expects a validated line; `label` names its input.
+///
+/// # Errors
+/// [`FormationError`]: no open chain, a centre line that comes closer to itself than the width, rings that cross.
+pub fn widen(line: &Line, label: &str, formation: &Formation) -> Result<Formed, FormationError> {
+    if line.chains.iter().all(Chain::closed) {
+        return Err(FormationError::NoCentreLine { label: label.to_owned(), rings: line.chains.len() });
+    }
+    let mut formed = Formed { line: line.clone(), notes: Vec::new() };
+    let taken = line.chains.iter().filter_map(|chain| match chain.role {
+        Role::Open => None,
+        Role::Outer { polygon } | Role::Hole { polygon } => Some(polygon + 1),
+    });
+    let mut polygon = taken.max().unwrap_or(0);
+    for (i, locator) in Locator::of_chains(label, &line.chains).iter().enumerate() {
+        let chain = &line.chains[i];
+        if chain.closed() {
+            continue;
+        }
+        let (ring, note) = road(chain, formation, polygon, locator)?;
+        formed.notes.extend(note);
+        formed.line.breaklines.push(Breakline {
+            name: chain.name.clone(),
+            vertices: chain.vertices.clone(),
+            places: chain.places.clone(),
+            stations: Some(chain.stations()),
+            of: Some(i),
+        });
+        formed.line.chains[i] = ring;
+        polygon += 1;
+    }
+    check_rings(&formed.line, label)?;
+    check_free(&formed.line, label)?;
+    Ok(formed)
+}
+
+/// No ring may lie on a road: its slopes would.
+fn check_free(line: &Line, label: &str) -> Result<(), FormationError> {
+    let roads: Vec<Chain> = line.chains.iter().filter(|chain| chain.axis.is_some()).cloned().collect();
+    let inside = Inside::new(&roads);
+    for (chain, locator) in line.chains.iter().zip(Locator::of_chains(label, &line.chains)) {
+        let (first, place) = (chain.vertices[0], chain.places[0]);
+        if chain.axis.is_none()
+            && let Some(road) = inside.ring_at(first.truncate())
+        {
+            let (ring, name, at) = (chain.name.clone(), roads[road].name.clone(), locator.vertex(place));
+            return Err(FormationError::RingInside { ring, name, at, x: first.x, y: first.y });
+        }
+    }
+    Ok(())
+}
+
+fn road(
+    chain: &Chain,
+    formation: &Formation,
+    polygon: u32,
+    locator: &Locator<'_>,
+) -> Result<(Chain, Option<Note>), FormationError> {
+    let centre = Centre::new(&chain.vertices, chain.stations());
+    let length = centre.stations[centre.stations.len() - 1];
+    let half = 0.5 * formation.width;
+    let refused = |fault| refusal(fault, chain, formation, &centre, locator);
+    check_centre(&centre).map_err(refused)?;
+    let fall = formation.crossfall;
+    let lefts = left(&centre, half, fall.left * half, formation.chord).map_err(refused)?;
+    let mut rights = left(&centre.mirrored(), half, fall.right * half, formation.chord).map_err(refused)?;
+    rights.iter_mut().for_each(|p| p.plan.y = -p.plan.y);
+    let note = fold_note(&chain.name, &[&lefts, &rights], formation.width);
+
+    let last = chain.vertices.len() - 1;
+    let end = |vertex: usize| EdgePoint {
+        plan: centre.plan[vertex],
+        z: centre.heights[vertex],
+        station: centre.stations[vertex],
+        vertex,
+        fold: None,
+    };
+    let mut points = distinct(lefts);
+    points.push(end(last));
+    let mut back = distinct(rights);
+    back.reverse();
+    points.append(&mut back);
+    points.push(end(0));
+    check_itself(&points, &centre, formation.width).map_err(refused)?;
+
+    let origin = chain.vertices[0].truncate();
+    let world = |p: &EdgePoint| {
+        // The ends are the given vertices, bit for bit.
+        let given = [0, last].into_iter().find(|&v| p.plan == centre.plan[v]);
+        given.map_or_else(|| (origin + p.plan).extend(p.z), |v| chain.vertices[v])
+    };
+    let mut stations: Vec<f64> = points.iter().map(|p| p.station).collect();
+    stations.push(stations[0]);
+    let ring = Chain {
+        name: chain.name.clone(),
+        role: Role::Outer { polygon },
+        vertices: points.iter().map(world).collect(),
+        places: points.iter().map(|p| chain.places[p.vertex]).collect(),
+        axis: Some(Axis { name: chain.name.clone(), length, stations }),
+    };
+    Ok((ring, note))
+}
+
+/// Drops points that lie on the one before.
+fn distinct(mut points: Vec<EdgePoint>) -> Vec<EdgePoint> {
+    points.dedup_by(|b, a| a.plan.distance(b.plan) <= MERGE_DISTANCE);
+    points
+}
+
+/// A centre line that crosses itself has no platform.
+fn check_centre(centre: &Centre) -> Result<(), Fault> {
+    let ends: Vec<(DVec2, DVec2)> = centre.plan.windows(2).map(|w| (w[0], w[1])).collect();
+    let mut found = None;
+    SegmentTree::new(&ends).pairs(|i, j| {
+        if i.abs_diff(j) > 1
+            && let Some(at) = meetings(ends[i], ends[j]).next()
+        {
+            let station = |k: usize| centre.stations[k] + ends[k].0.distance(at);
+            found = Some([station(i.min(j)), station(i.max(j))]);
+        }
+        found.is_none()
+    });
+    found.map_or(Ok(()), |stations| Err(Fault::Narrow { stations, distance: 0.0 }))
+}
+
+/// The edges of a sound road cross nowhere.
+fn check_itself(points: &[EdgePoint], centre: &Centre, width: f64) -> Result<(), Fault> {
+    let n = points.len();
+    let ends: Vec<(DVec2, DVec2)> = (0..n).map(|i| (points[i].plan, points[(i + 1) % n].plan)).collect();
+    let mut found = None;
+    SegmentTree::new(&ends).pairs(|i, j| {
+        let neighbours = j == i + 1 || (i == 0 && j + 1 == n);
+        if !neighbours && let Some(at) = meetings(ends[i], ends[j]).next() {
+            let station = |k: usize| {
+                let (a, b) = (&points[k], &points[(k + 1) % n]);
+                let part = a.plan.distance(at) / a.plan.distance(b.plan);
+                a.station + (b.station - a.station) * part.clamp(0.0, 1.0)
+            };
+            found = Some([station(i), station(j)]);
+        }
+        found.is_none()
+    });
+    let Some([mut a, mut b]) = found else { return Ok(()) };
+    if a > b {
+        std::mem::swap(&mut a, &mut b);
+    }
+    // The nearest way between the two legs there, one width on each side of the crossing.
+    let segment = |s: f64| centre.stations.partition_point(|t| *t < s).clamp(1, centre.plan.len() - 1) - 1;
+    let window = |s: f64, lo: f64, hi: f64| segment((s - width).max(lo))..segment((s + width).min(hi)) + 1;
+    let middle = 0.5 * (a + b);
+    let mut best = ([a, b], centre.at(a).distance(centre.at(b)));
+    let windows = [window(a, 0.0, middle), window(b, middle, f64::INFINITY)];
+    for (from, to) in [(0, 1), (1, 0)] {
+        for i in windows[from].start..=windows[from].end {
+            let (station, distance) = centre.nearest(centre.plan[i], windows[to].clone());
+            if distance < best.1 {
+                best = ([centre.stations[i], station], distance);
+            }
+        }
+    }
+    Err(Fault::Narrow { stations: best.0, distance: best.1 })
+}
+
+/// The common points of two closed segments, about; whether there are any is decided exactly.
+pub(super) fn meetings((a, b): (DVec2, DVec2), (c, d): (DVec2, DVec2)) -> impl Iterator<Item = DVec2> {
+    let sides = [turn(a, b, c), turn(a, b, d), turn(c, d, a), turn(c, d, b)];
+    let within = |p: DVec2, q: DVec2, r: DVec2| p.cmpge(q.min(r)).all() && p.cmple(q.max(r)).all();
+    let mut found = [(c, a, b), (d, a, b), (a, c, d), (b, c, d)].map(|(p, q, r)| within(p, q, r).then_some(p));
+    for (point, side) in found.iter_mut().zip(sides) {
+        *point = point.filter(|_| side == Turn::Straight);
+    }
+    if !sides.contains(&Turn::Straight) && sides[0] != sides[1] && sides[2] != sides[3] {
+        let (u, v) = (b - a, d - c);
+        found[0] = Some(a + u * ((c - a).perp_dot(v) / u.perp_dot(v)).clamp(0.0, 1.0));
+    }
+    found.into_iter().flatten()
+}
+
+fn fold_note(name: &str, edges: &[&[EdgePoint]; 2], width: f64) -> Option<Note> {
+    let folds: Vec<(f64, f64)> = edges
+        .iter()
+        .flat_map(|points| points.iter())
+        .filter_map(|p| p.fold.map(|[before, behind]| (p.station, (before - behind).abs())))
+        .collect();
+    let (station, step) = folds.iter().fold((0.0, -1.0), |best, &f| if f.1 > best.1 { f } else { best });
+    if folds.is_empty() {
+        return None;
+    }
+    let mut message = format!("bends of `{name}` tighter than half the width, where the inner edge is cut off: {}", folds.len());
+    if step > LEAST_STEP {
+        message.push_str(&format!(
+            "; its two ends differ in height by up to {step:.3} (station {station:.3}), levelled over {width} of edge on both sides"
+        ));
+    }
+    Some(Note::new("bend-cut-off", message))
+}
+
+fn refusal(fault: Fault, chain: &Chain, formation: &Formation, centre: &Centre, locator: &Locator<'_>) -> FormationError {
+    let name = chain.name.clone();
+    let at = |vertex: usize| locator.vertex(chain.places[vertex]);
+    let width = formation.width;
+    match fault {
+        Fault::Narrow { stations, distance } => {
+            let nearest = |station: f64| {
+                let after = centre.stations.partition_point(|s| *s < station).min(centre.stations.len() - 1);
+                let before = after.saturating_sub(1);
+                let nearer = station - centre.stations[before] < centre.stations[after] - station;
+                chain.places[if nearer { before } else { after }]
+            };
+            let mut stations = stations;
+            stations.sort_by(f64::total_cmp);
+            let at = locator.pair(nearest(stations[0]), nearest(stations[1]));
+            FormationError::Narrow { name, at, stations, distance, width }
+        }
+        Fault::Back { vertex } => FormationError::TurnsBack { name, at: at(vertex), station: centre.stations[vertex] },
+        Fault::NoRoom { vertex } => FormationError::NoRoom {
+            name,
+            at: at(vertex),
+            station: centre.stations[vertex],
+            length: centre.stations[centre.stations.len() - 1],
+            width,
+        },
+    }
+}

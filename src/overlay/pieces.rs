@@ -1,0 +1,70 @@
+//! The part of a mesh inside an area.
+
+use super::cell::{CUT, Patch};
+use super::fabric::{Fabric, Linked, double_area};
+use super::tally::in_chunks;
+use super::walker::Walker;
+use crate::kernel::sum::Sum;
+use glam::DVec3;
+
+/// Triangles to be laid on a mesh, neighbours near each other; counter-clockwise, with area.
+pub(super) trait Pieces: Sync {
+    fn count(&self) -> usize;
+    fn piece(&self, i: usize) -> [DVec3; 3];
+}
+
+impl Pieces for Fabric {
+    fn count(&self) -> usize {
+        self.triangles.len()
+    }
+
+    fn piece(&self, i: usize) -> [DVec3; 3] {
+        self.corners(i as u32)
+    }
+}
+
+/// Loose triangles.
+pub(super) struct Loose(Vec<[DVec3; 3]>);
+
+impl Pieces for Loose {
+    fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    fn piece(&self, i: usize) -> [DVec3; 3] {
+        self.0[i]
+    }
+}
+
+impl Loose {
+    /// Plan area of all of them.
+    pub(super) fn area(&self) -> f64 {
+        self.0.iter().map(|t| 0.5 * double_area(*t)).collect::<Sum>().value()
+    }
+}
+
+/// The part of `mesh` inside `area`: its triangles clipped by those of the area.
+pub(super) fn within(mesh: &Fabric, area: &Linked<'_>) -> Loose {
+    let chunks = in_chunks(
+        mesh.count(),
+        || Walker::new(area),
+        |walker, range| {
+            let mut found = Vec::new();
+            walker.reset();
+            for t in range {
+                let corners = mesh.piece(t);
+                let patch = Patch::new(corners);
+                walker.over(&patch, |_, ring| {
+                    if ring.edges().iter().all(|&e| e >= CUT) {
+                        found.push(corners);
+                    } else if let Some((o, rest)) = ring.corners().split_first() {
+                        let fan = rest.windows(2).map(|pair| [o, &pair[0], &pair[1]].map(|c| patch.point(c)));
+                        found.extend(fan.filter(|t| double_area(*t) > 0.0));
+                    }
+                });
+            }
+            found
+        },
+    );
+    Loose(chunks.concat())
+}

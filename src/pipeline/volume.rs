@@ -1,0 +1,299 @@
+//! Cut and fill between two surfaces that are given.
+
+use super::watch::{CHECKING, Observer, Stopwatch, WRITING};
+use super::{Error, read_ground};
+use crate::mesh::inside::inside;
+use crate::model::{Chain, Defect, Defects, Note, Role, Terrain};
+use crate::overlay::{self, Between, OverlayError, Surface};
+use crate::read::terrain::TerrainOptions;
+use crate::read::{self, ColumnOrder, ReadOptions, Source};
+use crate::report::between::{BetweenDepths, BetweenReference, BetweenReport, BetweenTiming, BetweenVolumes, MeshFigures};
+use crate::report::{Balance, Detail, Input, ReportFormat, SCHEMA, Tool, Units, Warning};
+use crate::surface::Watch;
+use crate::validate;
+use crate::write::{Outputs, Target};
+use glam::DVec2;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// Stage in which volumes are computed.
+const VOLUMES: &str = "volumes";
+
+/// Metres in a foot; the guess at a wrong unit needs no more digits.
+const FOOT: f64 = 0.3048;
+
+/// Two surfaces to be compared, and where the figures go.
+#[derive(Clone, Debug)]
+pub struct VolumeJob {
+    /// What is compared.
+    pub against: Against,
+    /// Columns of text files of points without a header.
+    pub csv_order: Option<ColumnOrder>,
+    /// A file of rings; only what lies inside counts.
+    pub within: Option<PathBuf>,
+    /// Where reports go.
+    pub reports: Vec<(Target, ReportFormat)>,
+}
+
+/// What is compared.
+#[derive(Clone, Debug)]
+pub enum Against {
+    /// Two meshes.
+    Existing {
+        /// The surface after the works.
+        design: PathBuf,
+        /// The surface before.
+        existing: PathBuf,
+    },
+    /// A mesh that is brought to one level.
+    Elevation {
+        /// The surface before.
+        existing: PathBuf,
+        /// The level.
+        elevation: f64,
+    },
+}
+
+/// What came out.
+#[derive(Clone, Debug)]
+pub struct Compared {
+    /// The report.
+    pub report: BetweenReport,
+    /// The files that have appeared, in the order of the job; streams are not among them.
+    pub written: Vec<Target>,
+}
+
+/// Why two surfaces could not be compared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ComparisonError {
+    /// The files.
+    pub labels: Vec<String>,
+    /// Why.
+    pub cause: OverlayError,
+}
+
+impl fmt::Display for ComparisonError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let message = self.cause.to_string();
+        let (what, rest) = message.split_once('\n').map_or((message.as_str(), None), |(what, rest)| (what, Some(rest)));
+        f.write_str(what)?;
+        for label in &self.labels {
+            write!(f, "\n  --> {label}")?;
+        }
+        if let Some(rest) = rest {
+            write!(f, "\n{rest}")?;
+        }
+        let help = match &self.cause {
+            OverlayError::Empty(_) => "give a surface with faces, or with points that are not all on one line",
+            OverlayError::Apart { design, existing } => apart(design, existing),
+            OverlayError::Outside { .. } => "check the coordinates of the rings: they must be those of the meshes",
+            OverlayError::Double { .. } => "keep one surface: delete the faces that lie below or above others",
+        };
+        write!(f, "\n   = help: {help}")
+    }
+}
+
+impl std::error::Error for ComparisonError {}
+
+/// A guess why two meshes do not meet.
+fn apart(design: &[DVec2; 2], existing: &[DVec2; 2]) -> &'static str {
+    let meets = |lo: DVec2, hi: DVec2| lo.cmple(existing[1]).all() && existing[0].cmple(hi).all();
+    let [lo, hi] = *design;
+    if meets(DVec2::new(lo.y, lo.x), DVec2::new(hi.y, hi.x)) {
+        return "easting and northing of one of them look swapped";
+    }
+    if meets(lo * FOOT, hi * FOOT) || meets(lo / FOOT, hi / FOOT) {
+        return "one of them looks as if it were in feet, the other in metres";
+    }
+    "give two surfaces of the same place, in the same coordinates"
+}
+
+/// Compares two surfaces. The outputs are opened first, and appear together at the end or not at all.
+///
+/// # Errors
+/// [`Error`]; nothing has been written then, except what already went down a stream.
+pub fn volume(job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Error> {
+    let watch = Stopwatch::new(observer);
+    let targets: Vec<Target> = job.reports.iter().map(|(target, _)| target.clone()).collect();
+    let (design, existing) = match &job.against {
+        Against::Existing { design, existing } => (Some(design), existing),
+        Against::Elevation { existing, .. } => (None, existing),
+    };
+    let inputs: Vec<PathBuf> = design.into_iter().chain([existing]).chain(&job.within).cloned().collect();
+    let mut outputs = Outputs::open(&targets, &inputs)?;
+
+    let options = TerrainOptions { format: None, csv_order: job.csv_order.clone() };
+    let read = |path: &Path, surface: Surface| read_ground(path, &options, &Named { watch: &watch, surface });
+    let design = design.map(|path| read(path, Surface::Design)).transpose()?;
+    let existing = read(existing, Surface::Existing)?;
+    let area = job.within.as_ref().map(|path| rings(path, &watch)).transpose()?;
+
+    watch.stage_of(VOLUMES);
+    let within = area.as_ref().map(|(area, _)| area);
+    let found = match (&job.against, &design) {
+        (Against::Elevation { elevation, .. }, _) => overlay::to_elevation(&existing.0, *elevation, within),
+        (Against::Existing { .. }, Some(design)) => overlay::between(&design.0, &existing.0, within),
+        // The parser of jobs gives a design with an existing surface; there is nothing to compare without.
+        (Against::Existing { .. }, None) => Err(OverlayError::Empty(Surface::Design)),
+    };
+    let sources = || design.iter().map(|d| &d.1).chain([&existing.1]);
+    let found = found.map_err(|cause| ComparisonError { labels: sources().map(|s| s.label.clone()).collect(), cause })?;
+    notes(&found).iter().for_each(|note| Stopwatch::note(&watch, note));
+
+    let roles = design.is_some().then_some("design").into_iter().chain(["existing"]);
+    let mut inputs: Vec<Input> = roles.zip(sources()).map(|(role, source)| input(role, source)).collect();
+    inputs.extend(area.iter().map(|(_, source)| input("within", source)));
+    let meshes = design.iter().map(|d| ("design", &d.0)).chain([("existing", &existing.0)]);
+    let mut report = BetweenReport {
+        schema: SCHEMA,
+        tool: Tool::default(),
+        inputs,
+        units: Units::default(),
+        meshes: meshes
+            .map(|(role, mesh)| MeshFigures { role, vertices: mesh.vertices.len(), triangles: mesh.triangles.len() })
+            .collect(),
+        volumes: volumes(&found, &job.against, &existing.1),
+        areas: found.areas.into(),
+        depths: BetweenDepths::from(&found),
+        warnings: warnings(&watch.notes(), &found),
+        timing: BetweenTiming::default(),
+    };
+    watch.stage_of(WRITING);
+    report.timing = BetweenTiming {
+        read: watch.seconds(|stage| stage != VOLUMES && stage != WRITING),
+        volume: watch.seconds(|stage| stage == VOLUMES),
+        total: watch.total(),
+    };
+    for (index, (_, format)) in job.reports.iter().enumerate() {
+        outputs.write(index, |out| format.write_between(out, &report))?;
+    }
+    outputs.commit()?;
+    Ok(Compared { report, written: targets.into_iter().filter(|target| !target.is_stream()).collect() })
+}
+
+fn volumes(found: &Between, against: &Against, existing: &Source) -> BetweenVolumes {
+    let reference = match against {
+        Against::Existing { .. } => BetweenReference::Terrain { path: existing.label.clone() },
+        Against::Elevation { elevation, .. } => BetweenReference::Plane { elevation: *elevation },
+    };
+    BetweenVolumes {
+        method: "prisms",
+        cut: found.cut,
+        fill: found.fill,
+        net: found.net(),
+        balance: Balance::of(found.cut, found.fill),
+        cells: (found.cells > 0).then_some(found.cells),
+        reference,
+    }
+}
+
+fn input(role: &str, source: &Source) -> Input {
+    Input {
+        role: role.to_owned(),
+        path: if source.label == "<stdin>" { "-".to_owned() } else { source.label.clone() },
+        sha256: source.sha256.clone(),
+        format: source.format.name().to_owned(),
+        crs: source.crs.clone(),
+    }
+}
+
+/// What is to be said about the result.
+fn notes(found: &Between) -> Vec<Note> {
+    let mut notes = Vec::new();
+    let Between { areas, double, .. } = found;
+    let whole = areas.design_uncovered + found.common_area();
+    if areas.design_uncovered > 0.0 {
+        let (area, percent) = (areas.design_uncovered, 100.0 * areas.design_uncovered / whole);
+        notes.push(Note::new(
+            "design-uncovered",
+            format!(
+                "{area:.3} square units of the design ({percent:.3} %) do not lie over the existing surface; they have no volume"
+            ),
+        ));
+        if areas.existing_uncovered == 0.0 {
+            let message = "the existing surface lies wholly under the design, and is smaller: are the two swapped?";
+            notes.push(Note::new("meshes-swapped", message));
+        }
+    }
+    for (area, name) in double.iter().zip(["design", "existing"]) {
+        if *area > 0.0 {
+            let message =
+                format!("{area:.3e} square units of the {name} mesh lie double, as slivers along seams; they may count twice");
+            notes.push(Note::new("lies-double", message));
+        }
+    }
+    notes
+}
+
+fn warnings(notes: &[Note], found: &Between) -> Vec<Warning> {
+    let details = |code: &str| match code {
+        "design-uncovered" => BTreeMap::from([("area", Detail::Number(found.areas.design_uncovered))]),
+        _ => BTreeMap::new(),
+    };
+    let warning =
+        |note: &Note| Warning { code: note.code.to_owned(), message: note.message.clone(), details: details(note.code) };
+    notes.iter().map(warning).collect()
+}
+
+/// The area inside the rings of a file. Elevations do not matter.
+fn rings(path: &Path, watch: &Stopwatch<'_>) -> Result<(Terrain, Source), Error> {
+    watch.stage_of(CHECKING);
+    let mut raw = read::read_line(path, &ReadOptions::default())?;
+    raw.lines.iter_mut().flat_map(|line| &mut line.vertices).for_each(|v| v.z = Some(0.0));
+    let checked = validate::check(&raw, &validate::Options::default())?;
+    let label = &raw.source.label;
+    let mut defects = Defects::default();
+    for chain in checked.line.chains.iter().filter(|chain| chain.role == Role::Open) {
+        defects.push("not-a-ring", || Defect {
+            code: "not-a-ring",
+            what: format!("`{}` is not a ring", chain.name),
+            at: label.clone(),
+            figures: Some(ends(chain)),
+            help: "give polygons, or lines that end where they begin".to_owned(),
+        });
+    }
+    defects.into_result()?;
+    let plan = |chain: &Chain| chain.vertices.iter().map(|v| v.truncate()).collect();
+    let rings: Vec<Vec<DVec2>> = checked.line.chains.iter().map(plan).collect();
+    let area = inside(&rings).map_err(|cause| {
+        let mut defects = Defects::default();
+        defects.push("rings-cross", || Defect {
+            code: "rings-cross",
+            what: "the area inside the rings cannot be found".to_owned(),
+            at: label.clone(),
+            figures: Some(cause.to_string()),
+            help: "give rings that do not cross each other".to_owned(),
+        });
+        defects
+    })?;
+    Ok((area, raw.source))
+}
+
+fn ends(chain: &Chain) -> String {
+    let show = |p: Option<&glam::DVec3>| p.map_or_else(String::new, |p| format!("{}, {}", p.x, p.y));
+    format!("it begins at {} and ends at {}", show(chain.vertices.first()), show(chain.vertices.last()))
+}
+
+/// Notes with the name of the surface before them.
+struct Named<'a, 'b> {
+    watch: &'a Stopwatch<'b>,
+    surface: Surface,
+}
+
+impl Watch for Named<'_, '_> {
+    fn stage(&self, name: &'static str) {
+        self.watch.stage(name);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.watch.cancelled()
+    }
+}
+
+impl Observer for Named<'_, '_> {
+    fn note(&self, note: &Note) {
+        let named = Note { code: note.code, message: format!("{}: {}", self.surface.name(), note.message) };
+        Observer::note(self.watch, &named);
+    }
+}
