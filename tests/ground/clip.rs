@@ -4,8 +4,8 @@ use crate::figures::Figures;
 use crate::planar::above;
 use crate::tin::{Cells, Ground, plan_box, twice_area};
 
-/// Differences of height below this count for no area: rounding of ground that is the same in both.
-const SAME: f64 = 1e-9;
+/// Where heights differ by less there is no area: the program takes 1e-8 for none, and rounding of corners comes on top.
+const SAME: f64 = 1e-7;
 
 /// Cut (where `existing` is above) and fill (where `design` is), with the plan area the two have in common.
 pub(crate) fn between(design: &Ground, existing: &Ground) -> (Figures, f64) {

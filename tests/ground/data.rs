@@ -66,10 +66,10 @@ fn pairs() {
         let pad = report(&pair.join("pad.geojson"), &ground, &slopes);
         near(&format!("{name}, pad"), &pad, &reference["pad"]["reference"], 1.2e-2);
         let platform = report(&pair.join("road_platform.geojson"), &ground, &slopes);
-        near(&format!("{name}, road as a ring"), &platform, &road["reference"], 1.5e-2);
+        near(&format!("{name}, road as a ring"), &platform, &road["reference"], 2e-3);
         let width = format!("{slopes} --width {}", road["width"]);
         let centre = report(&pair.join("road_centerline.geojson"), &ground, &width);
-        near(&format!("{name}, road with a width"), &centre, &road["reference"], 1.5e-2);
+        near(&format!("{name}, road with a width"), &centre, &road["reference"], 2e-3);
         count += 3;
     }
     assert_eq!(count, 12);

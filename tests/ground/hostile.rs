@@ -101,7 +101,7 @@ fn line_beside_the_ground() {
     let site = site();
     let moved = site.ground.map(|[x, y, z]| [x + 300.0, y, z]);
     // Both boxes.
-    refused_ground(moved.obj(), "g.obj", &[1], &["640992", "641260", "overlap|apart|beside|meet"]);
+    refused_ground(moved.obj(), "g.obj", &[1], &["640992", "641260", "overlap|apart|same place"]);
     let swapped = site.ground.map(|[x, y, z]| [y, x, z]);
     refused_ground(swapped.obj(), "g.obj", &[1], &["swap|exchang|northing"]);
 }
@@ -138,9 +138,11 @@ fn files_of_another_kind() {
     let folder = Folder::of(&site());
     refused(&folder, "--terrain line.geojson", &[2, 3], &["line.geojson"]);
     refused(&folder, "--terrain missing.obj", &[3], &["missing.obj"]);
-    let folder = folder.with("ground.tif", "II*\0").with("ground", &obj);
+    let folder = folder.with("ground.tif", "II*\0").with("ground", "what is this\n");
     refused(&folder, "--terrain ground.tif", &[2, 3], &[".tif", ".obj|tiff"]);
     refused(&folder, "--terrain ground", &[2, 3], &["ending|extension"]);
+    // Without an ending the content tells.
+    folder.with("bare", &obj).run(&format!("{BUILD} --terrain bare")).done();
 }
 
 /// A PLY that promises more than it holds.
@@ -218,12 +220,10 @@ fn not_single_valued() {
         &[1, 3],
         &["overlap|overhang|twice|single|above"],
     );
-    refused_ground(
-        with([[-3.0, 1.0, 600.0], [5.0, 1.0, 600.0], [0.0, 1.0, 606.0]]),
-        "g.obj",
-        &[1, 3],
-        &["vertical|upright|steep"],
-    );
+    // A face without area in plan takes no room: it is left out, and that is said.
+    let wall = with([[-3.0, 1.0, 600.0], [5.0, 1.0, 600.0], [0.0, 1.0, 606.0]]);
+    let run = Folder::of(&site()).with("g.obj", wall).run(&format!("{BUILD} --terrain g.obj")).done();
+    assert!(run.stderr.contains("[ground-faces-degenerate]"), "{}", run.stderr);
 }
 
 /// Points without triangles are triangulated, which is said; no points are no ground.
