@@ -4,7 +4,7 @@ use super::cell::{Corner, Label, cell, class};
 use super::nodes::Nodes;
 use super::patch::{NONE, Patch};
 use super::shape::Shape;
-use super::trimmed::{Passing, along};
+use super::trimmed::Passing;
 use super::works::{Border, Works, clip, split_sides};
 use crate::mesh::polygon;
 use crate::mesh::region::RegionError;
@@ -115,13 +115,13 @@ fn remainder(
     }
     for border in &cut.borders {
         if let (Some(from), Some(to)) = (nodes.meeting(border.from), nodes.meeting(border.to)) {
-            edges.push([to, from]);
+            edges.extend(nodes.pieces([to, from]));
         }
     }
     for (j, list) in stretches.iter_mut().enumerate() {
         let labels = works.on_ground.get(&patch.edge(b, j as u8)).map_or(&[][..], |list| list);
         let ids = labels.iter().filter_map(|&label| nodes.meeting(label));
-        let path = along(nodes, ends(j).map(|v| nodes.ground(v)), ids);
+        let path = nodes.along(ends(j).map(|v| nodes.ground(v)), ids);
         uncovered(list, &path, &mut edges);
     }
     edges
