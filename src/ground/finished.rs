@@ -144,7 +144,8 @@ fn uncovered(stretches: &mut [Stretch], path: &[u32], edges: &mut Vec<[u32; 2]>)
     let position: FxHashMap<u32, usize> = path.iter().enumerate().map(|(n, &v)| (v, n)).collect();
     let mut covered = vec![false; path.len() - 1];
     let mut start: Option<usize> = None;
-    for s in stretches.iter() {
+    // A stretch that begins and ends in one vertex says nothing, and may come at any place among the others.
+    for s in stretches.iter().filter(|s| s[0].1 != s[1].1) {
         if start.is_none() {
             start = position.get(&s[0].1).copied();
         }
@@ -164,7 +165,7 @@ mod tests {
     #[test]
     fn free_stretches_of_a_side() {
         let mut edges = Vec::new();
-        let mut stretches = [[(6.0, 9), (8.0, 4)], [(0.0, 1), (2.0, 2)], [(4.0, 3), (6.0, 9)]];
+        let mut stretches = [[(6.0, 9), (8.0, 4)], [(0.0, 1), (2.0, 2)], [(4.0, 3), (6.0, 9)], [(5.0, 3), (5.0, 3)]];
         uncovered(&mut stretches, &[1, 2, 3, 4], &mut edges);
         assert_eq!(edges, [[2, 3]]);
         edges.clear();
