@@ -101,54 +101,72 @@ impl<'a> Site<'a> {
     /// [`GroundError`]; meshes that fail their check are errors, never a result.
     pub fn build(self, designs: &[Design], options: &Options, watch: &dyn Watch) -> Result<Ground, GroundError> {
         let whole = designs.iter().any(|d| d.side_of_rings == Side::Inside) && self.line.chains.iter().all(|c| c.closed());
-        let designs = if whole { designs.to_vec() } else { self.as_deep_as_needed(designs, watch)? };
-        let designs = self.in_common(&designs);
+        if !whole {
+            let needed = self.as_deep_as_needed(designs, watch)?;
+            match self.attempt(&needed, whole, options, watch) {
+                // On ground that lies in the slopes, the coarse pass may have met it too early.
+                Err(GroundError::Open { .. }) if needed != designs => {}
+                built => return built,
+            }
+        }
+        self.attempt(designs, whole, options, watch)
+    }
+
+    fn attempt(&self, designs: &[Design], whole: bool, options: &Options, watch: &dyn Watch) -> Result<Ground, GroundError> {
+        let designs = self.in_common(designs);
         let surfaces = self.surfaces(&designs, watch)?;
         let go_on = |stage| {
             watch.stage(stage);
             if watch.cancelled() { Err(SurfaceError::Cancelled) } else { Ok(()) }
         };
         go_on("works")?;
-        let unsound = |mesh, what: &str| GroundError::Unsound { mesh, what: what.to_owned() };
-        let shape = Shape::new(&surfaces.iter().collect::<Vec<_>>(), whole)
-            .ok_or_else(|| unsound("design", "its slopes do not have the points of the line in common"))?;
+        let shape = Shape::new(&surfaces.iter().collect::<Vec<_>>(), whole).ok_or_else(|| GroundError::Unsound {
+            mesh: "design",
+            what: "its slopes do not have the points of the line in common".to_owned(),
+        })?;
         let patch = self.patch(&shape, whole);
         let notes = inspected(&patch, &self.terrain, self.label)?;
         let stations = Stations::new(self.axes(), options.stations)?;
         let mut feeder = Feeder::new(&shape, &stations);
-        let works = Flood::run(&shape, &patch, whole, &mut feeder);
+        let mut works = Flood::run(&shape, &patch, whole, &mut feeder);
         let fed = feeder.finish();
         self.check_covered(&shape, &fed, options)?;
         check_open(&shape, &works, options)?;
         go_on("daylight")?;
-        let nodes = Nodes::new(&shape, &patch, &works);
-        let trimmed = Trimmed::new(&shape, &patch, &works, &nodes, whole)
-            .map_err(|cause| GroundError::Cut { what: "the design", cause })?;
-        let left = if options.finished {
-            figures::check_walls(&shape, &works, &nodes)?;
-            Some(
-                Left::new(&shape, &patch, &works, &nodes, whole)
-                    .map_err(|cause| GroundError::Cut { what: "the ground", cause })?,
-            )
-        } else {
-            None
+        let mut nodes = Nodes::new(&shape, &patch, &works);
+        let assemble = |works: &Works, nodes: &Nodes| {
+            let cut = |what| move |cause| GroundError::Cut { what, cause };
+            let trimmed = Trimmed::new(&shape, &patch, works, nodes, whole).map_err(cut("the design"))?;
+            let left = if options.finished {
+                figures::check_walls(&shape, works, nodes)?;
+                Some(Left::new(&shape, &patch, works, nodes, whole).map_err(cut("the ground"))?)
+            } else {
+                None
+            };
+            go_on("finished ground")?;
+            figures::ground(&figures::Found {
+                line: self.line,
+                designs: &designs,
+                terrain: &self.terrain,
+                surfaces: &surfaces,
+                shape: &shape,
+                patch: &patch,
+                works,
+                nodes,
+                trimmed: &trimmed,
+                left: left.as_ref(),
+                fed: &fed,
+                stations: &stations,
+                notes: &notes,
+            })
         };
-        go_on("finished ground")?;
-        figures::ground(&figures::Found {
-            line: self.line,
-            designs: &designs,
-            terrain: &self.terrain,
-            surfaces: &surfaces,
-            shape: &shape,
-            patch: &patch,
-            works: &works,
-            nodes: &nodes,
-            trimmed: &trimmed,
-            left: left.as_ref(),
-            fed,
-            stations: &stations,
-            notes,
-        })
+        match assemble(&works, &nodes) {
+            Err(GroundError::Cut { .. } | GroundError::Unsound { .. }) => {
+                nodes.snap(&shape, &patch, &mut works);
+                assemble(&works, &nodes)
+            }
+            built => built,
+        }
     }
 
     /// The designs with ends just beyond the ground that they really meet, where the end was one of [`Self::end`].
