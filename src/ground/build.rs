@@ -76,6 +76,11 @@ impl<'a> Site<'a> {
         &self.terrain
     }
 
+    /// Plan area of the ground.
+    pub fn area(&self) -> f64 {
+        self.bounds.area
+    }
+
     /// Finds how far slopes of a sheet can reach before they meet the ground, and the elevation at which that is.
     pub fn end(&mut self, slope: Slope, sheet: Sheet, tolerance: f64) -> f64 {
         let reach = self.bounds.reach(&self.terrain.frame, self.line, slope, sheet);
@@ -216,7 +221,7 @@ impl<'a> Site<'a> {
     }
 
     fn surfaces(&self, designs: &[Design], watch: &dyn Watch) -> Result<Vec<Surface>, GroundError> {
-        let build = |design: &Design| surface::build(self.line, design, None, watch);
+        let build = |design: &Design| surface::build_uncut(self.line, design, watch);
         let surfaces = match designs {
             [first, second] => {
                 let (first, second) = rayon::join(|| build(first), || build(second));
