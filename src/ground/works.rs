@@ -92,7 +92,8 @@ pub(crate) struct Flood<'a, S> {
     whole: bool,
     sink: &'a mut S,
     works: Works,
-    visited: FxHashSet<(u32, u32)>,
+    /// Cells that are or were pending, both numbers in one: that is what the flood looks up most.
+    visited: FxHashSet<u64>,
     pending: Vec<(u32, u32)>,
     corners: Vec<Corner>,
     kept: Vec<Corner>,
@@ -138,7 +139,7 @@ impl<'a, S: Sink> Flood<'a, S> {
     }
 
     fn push(&mut self, a: u32, b: u32) {
-        if self.visited.insert((a, b)) {
+        if self.visited.insert(u64::from(a) << 32 | u64::from(b)) {
             self.pending.push((a, b));
         }
     }
@@ -153,7 +154,12 @@ impl<'a, S: Sink> Flood<'a, S> {
                     continue;
                 }
                 near.clear();
-                self.patch.near(plan[i as usize], plan[(i as usize + 1) % 3], |b| near.push(b));
+                let (from, to) = (plan[i as usize], plan[(i as usize + 1) % 3]);
+                self.patch.near(from, to, |b| {
+                    if self.patch.meets_box(b, from, to) {
+                        near.push(b);
+                    }
+                });
                 near.sort_unstable();
                 near.dedup();
                 for &b in &near {
