@@ -9,7 +9,7 @@ use super::shape::Shape;
 use super::stations::Stations;
 use super::tally::Tally;
 use super::trimmed::Trimmed;
-use super::works::{Flood, Sink, Works};
+use super::works::{End, Flood, Sink, Works};
 use super::{Axis, Corner, GroundError, Piece, SectionFigures, Sections, cell};
 use crate::kernel::frame::Frame;
 use crate::kernel::sum::Sum;
@@ -19,6 +19,7 @@ use crate::slope::levels;
 use crate::surface::{self, Surface, SurfaceError, Watch};
 use crate::terrain::inspect;
 use glam::{DVec2, DVec3};
+use std::sync::{Arc, OnceLock};
 
 /// Slopes are built this part of their depth beyond the lowest (highest) ground they can reach, and at least
 /// [`LEAST_BEYOND`] tolerances: they then meet the ground within the mesh.
@@ -43,6 +44,8 @@ pub struct Site<'a> {
     reaches: Vec<Reach>,
     /// The ends that were proposed.
     ends: Vec<(Sheet, f64)>,
+    /// The first part of the ground that was asked for, with the cells of `bounds` it belongs to.
+    first_patch: OnceLock<(Vec<bool>, Arc<Patch>)>,
 }
 
 /// What is wanted of the ground.
@@ -68,7 +71,7 @@ impl<'a> Site<'a> {
         }
         let terrain = terrain.in_frame(Frame::around(lo, hi));
         let bounds = Bounds::new(&terrain);
-        Self { line, terrain, label, bounds, reaches: Vec::new(), ends: Vec::new() }
+        Self { line, terrain, label, bounds, reaches: Vec::new(), ends: Vec::new(), first_patch: OnceLock::new() }
     }
 
     /// The ground.
@@ -106,54 +109,72 @@ impl<'a> Site<'a> {
     /// [`GroundError`]; meshes that fail their check are errors, never a result.
     pub fn build(self, designs: &[Design], options: &Options, watch: &dyn Watch) -> Result<Ground, GroundError> {
         let whole = designs.iter().any(|d| d.side_of_rings == Side::Inside) && self.line.chains.iter().all(|c| c.closed());
-        let designs = if whole { designs.to_vec() } else { self.as_deep_as_needed(designs, watch)? };
-        let designs = self.in_common(&designs);
+        if !whole {
+            let needed = self.as_deep_as_needed(designs, watch)?;
+            match self.attempt(&needed, whole, options, watch) {
+                // On ground that lies in the slopes, the coarse pass may have met it too early.
+                Err(GroundError::Open { .. }) if needed != designs => {}
+                built => return built,
+            }
+        }
+        self.attempt(designs, whole, options, watch)
+    }
+
+    fn attempt(&self, designs: &[Design], whole: bool, options: &Options, watch: &dyn Watch) -> Result<Ground, GroundError> {
+        let designs = self.in_common(designs);
         let surfaces = self.surfaces(&designs, watch)?;
         let go_on = |stage| {
             watch.stage(stage);
             if watch.cancelled() { Err(SurfaceError::Cancelled) } else { Ok(()) }
         };
         go_on("works")?;
-        let unsound = |mesh, what: &str| GroundError::Unsound { mesh, what: what.to_owned() };
-        let shape = Shape::new(&surfaces.iter().collect::<Vec<_>>(), whole)
-            .ok_or_else(|| unsound("design", "its slopes do not have the points of the line in common"))?;
+        let shape = Shape::new(&surfaces.iter().collect::<Vec<_>>(), whole).ok_or_else(|| GroundError::Unsound {
+            mesh: "design",
+            what: "its slopes do not have the points of the line in common".to_owned(),
+        })?;
         let patch = self.patch(&shape, whole);
         let notes = inspected(&patch, &self.terrain, self.label)?;
         let stations = Stations::new(self.axes(), options.stations)?;
         let mut feeder = Feeder::new(&shape, &stations);
-        let works = Flood::run(&shape, &patch, whole, &mut feeder);
+        let mut works = Flood::run(&shape, &patch, whole, &mut feeder);
         let fed = feeder.finish();
         self.check_covered(&shape, &fed, options)?;
-        check_open(&shape, &works, options)?;
+        check_open(&shape, &works, &designs, options)?;
         go_on("daylight")?;
-        let nodes = Nodes::new(&shape, &patch, &works);
-        let trimmed = Trimmed::new(&shape, &patch, &works, &nodes, whole)
-            .map_err(|cause| GroundError::Cut { what: "the design", cause })?;
-        let left = if options.finished {
-            figures::check_walls(&shape, &works, &nodes)?;
-            Some(
-                Left::new(&shape, &patch, &works, &nodes, whole)
-                    .map_err(|cause| GroundError::Cut { what: "the ground", cause })?,
-            )
-        } else {
-            None
+        let mut nodes = Nodes::new(&shape, &patch, &works);
+        let assemble = |works: &Works, nodes: &Nodes| {
+            let cut = |what| move |cause| GroundError::Cut { what, cause };
+            let trimmed = Trimmed::new(&shape, &patch, works, nodes, whole).map_err(cut("the design"))?;
+            let left = if options.finished {
+                figures::check_walls(&shape, works, nodes)?;
+                Some(Left::new(&shape, &patch, works, nodes, whole).map_err(cut("the ground"))?)
+            } else {
+                None
+            };
+            go_on("finished ground")?;
+            figures::ground(&figures::Found {
+                line: self.line,
+                designs: &designs,
+                terrain: &self.terrain,
+                surfaces: &surfaces,
+                shape: &shape,
+                patch: &patch,
+                works,
+                nodes,
+                trimmed: &trimmed,
+                left: left.as_ref(),
+                fed: &fed,
+                stations: &stations,
+                notes: &notes,
+            })
         };
-        go_on("finished ground")?;
-        figures::ground(&figures::Found {
-            line: self.line,
-            designs: &designs,
-            terrain: &self.terrain,
-            surfaces: &surfaces,
-            shape: &shape,
-            patch: &patch,
-            works: &works,
-            nodes: &nodes,
-            trimmed: &trimmed,
-            left: left.as_ref(),
-            fed,
-            stations: &stations,
-            notes,
-        })
+        match assemble(&works, &nodes) {
+            Err(GroundError::Cut { .. } | GroundError::Unsound { .. }) => {
+                nodes.snap(&shape, &patch, &mut works);
+                assemble(&works, &nodes)
+            }
+            built => built,
+        }
     }
 
     /// The designs with ends just beyond the ground that they really meet, where the end was one of [`Self::end`].
@@ -193,10 +214,16 @@ impl<'a> Site<'a> {
         Ok(designs.iter().map(deepened).collect())
     }
 
-    /// The part of the ground that the works can touch.
-    fn patch(&self, shape: &Shape, whole: bool) -> Patch {
+    /// The part of the ground that the works can touch. Nearly always that is the same for the coarse build and the build proper.
+    fn patch(&self, shape: &Shape, whole: bool) -> Arc<Patch> {
         let flats = (0..shape.triangles.len() as u32).filter(|&a| whole || shape.parts[a as usize] == Part::Platform);
-        Patch::new(&self.terrain, self.bounds.touched(&self.terrain, &self.reaches, flats.map(|a| shape.plan(a))))
+        let inside = self.bounds.inside(&self.reaches, flats.map(|a| shape.plan(a)));
+        if let Some((_, patch)) = self.first_patch.get().filter(|(cells, _)| *cells == inside) {
+            return Arc::clone(patch);
+        }
+        let patch = Arc::new(Patch::new(&self.terrain, self.bounds.touched(&self.terrain, &inside)));
+        self.first_patch.get_or_init(|| (inside, Arc::clone(&patch)));
+        patch
     }
 
     /// The designs in one frame, with one interval, each simplifying the line as the other needs it.
@@ -306,19 +333,24 @@ fn inspected(patch: &Patch, terrain: &Terrain, label: &str) -> Result<Vec<Note>,
     if findings.defects.list.is_empty() { Ok(findings.notes) } else { Err(GroundError::Terrain(findings.defects)) }
 }
 
-fn check_open(shape: &Shape, works: &Works, options: &Options) -> Result<(), GroundError> {
-    use super::works::End;
-    let Some(first) = works.open.iter().max_by(|p, q| p.height.total_cmp(&q.height)) else { return Ok(()) };
+/// Refuses slopes that end without meeting the ground.
+fn check_open(shape: &Shape, works: &Works, designs: &[Design], options: &Options) -> Result<(), GroundError> {
+    let Some(worst) = works.open.iter().max_by(|p, q| p.height.total_cmp(&q.height)) else { return Ok(()) };
     if options.allow_open {
         return Ok(());
     }
     let length = works.open.iter().map(|o| o.points[0].truncate().distance(o.points[1].truncate())).collect::<Sum>();
-    let at = shape.frame.to_world(first.points[0]);
-    let (place, cure) = match first.end {
-        End::Ground => ("at the edge of the ground", "use a ground that reaches further and has no holes"),
-        End::Slope => ("at the end asked for", "give a later end, or none"),
+    let at = shape.frame.to_world(worst.points[0]);
+    let at_end = |design: &Design| match design.extent {
+        Extent::Elevation(end) => worst.points.iter().all(|p| (p.z - end).abs() <= levels::LEVEL_SNAP),
+        Extent::Height(_) | Extent::Distance(_) => true,
     };
-    Err(GroundError::Open { x: at.x, y: at.y, length: length.value(), height: first.height, at: place, cure })
+    let (place, cure) = match worst.end {
+        End::Ground => ("at the edge of the ground", "use a ground that reaches further and has no holes"),
+        End::Slope if designs.iter().any(at_end) => ("at the end asked for", "give a later end, or none"),
+        End::Slope => ("beside the end of the line, where slopes of one side stop", "build both sides (`--side both`)"),
+    };
+    Err(GroundError::Open { x: at.x, y: at.y, length: length.value(), height: worst.height, at: place, cure })
 }
 
 /// What the feeder has gathered.

@@ -8,7 +8,7 @@ use super::patch::{NONE, Patch};
 use super::shape::Shape;
 use super::stations::Stations;
 use super::trimmed::Trimmed;
-use super::works::{Border, Works};
+use super::works::{Border, End, Works};
 use super::{Axis, GroundError, SectionFigures, Tallied};
 use crate::kernel::orientation::{Turn, turn};
 use crate::kernel::sum::Sum;
@@ -87,9 +87,9 @@ pub(crate) struct Found<'a> {
     pub(crate) nodes: &'a Nodes,
     pub(crate) trimmed: &'a Trimmed,
     pub(crate) left: Option<&'a Left>,
-    pub(crate) fed: Fed,
+    pub(crate) fed: &'a Fed,
     pub(crate) stations: &'a Stations,
-    pub(crate) notes: Vec<Note>,
+    pub(crate) notes: &'a [Note],
 }
 
 /// Puts the results together and checks the meshes.
@@ -124,7 +124,7 @@ pub(crate) fn ground(found: &Found) -> Result<Ground, GroundError> {
         simplified: found.surfaces.iter().map(|s| s.simplified).max().unwrap_or(0),
         simplified_max: simplified,
         ground_used: found.patch.triangles.len(),
-        notes: found.notes.clone(),
+        notes: found.notes.to_vec(),
         design,
     })
 }
@@ -343,7 +343,7 @@ pub(crate) fn check_walls(shape: &Shape, works: &Works, nodes: &Nodes) -> Result
             place.get_or_insert(0.5 * (p + q));
         }
     }
-    for open in &works.open {
+    for open in works.open.iter().filter(|open| open.end == End::Slope) {
         length.add(open.points[0].truncate().distance(open.points[1].truncate()));
         height = height.max(open.height);
         place.get_or_insert(open.points[0]);
@@ -424,6 +424,10 @@ fn check_finished(found: &Found, left: &Left, new: &[([u32; 3], Part)]) -> Resul
                 rim.insert([patch.triangles[b][j], patch.triangles[b][(j + 1) % 3]].map(|v| nodes.ground(v)));
             }
         }
+    }
+    // Where slopes hang over the edge of the ground, they end with it.
+    if !found.works.open.is_empty() {
+        return Ok(());
     }
     let torn = soundness.boundary.iter().find(|e| !rim.contains(&e.map(|v| number.ids[v as usize])));
     match torn {

@@ -4,7 +4,7 @@ use super::cell::{Corner, Label, cell, class};
 use super::nodes::Nodes;
 use super::patch::{NONE, Patch};
 use super::shape::Shape;
-use super::trimmed::{Passing, along};
+use super::trimmed::Passing;
 use super::works::{Border, Works, clip, split_sides};
 use crate::mesh::polygon;
 use crate::mesh::region::RegionError;
@@ -115,13 +115,13 @@ fn remainder(
     }
     for border in &cut.borders {
         if let (Some(from), Some(to)) = (nodes.meeting(border.from), nodes.meeting(border.to)) {
-            edges.push([to, from]);
+            edges.extend(nodes.pieces([to, from]));
         }
     }
     for (j, list) in stretches.iter_mut().enumerate() {
         let labels = works.on_ground.get(&patch.edge(b, j as u8)).map_or(&[][..], |list| list);
         let ids = labels.iter().filter_map(|&label| nodes.meeting(label));
-        let path = along(nodes, ends(j).map(|v| nodes.ground(v)), ids);
+        let path = nodes.along(ends(j).map(|v| nodes.ground(v)), ids);
         uncovered(list, &path, &mut edges);
     }
     edges
@@ -144,7 +144,8 @@ fn uncovered(stretches: &mut [Stretch], path: &[u32], edges: &mut Vec<[u32; 2]>)
     let position: FxHashMap<u32, usize> = path.iter().enumerate().map(|(n, &v)| (v, n)).collect();
     let mut covered = vec![false; path.len() - 1];
     let mut start: Option<usize> = None;
-    for s in stretches.iter() {
+    // A stretch that begins and ends in one vertex says nothing, and may come at any place among the others.
+    for s in stretches.iter().filter(|s| s[0].1 != s[1].1) {
         if start.is_none() {
             start = position.get(&s[0].1).copied();
         }
@@ -164,7 +165,7 @@ mod tests {
     #[test]
     fn free_stretches_of_a_side() {
         let mut edges = Vec::new();
-        let mut stretches = [[(6.0, 9), (8.0, 4)], [(0.0, 1), (2.0, 2)], [(4.0, 3), (6.0, 9)]];
+        let mut stretches = [[(6.0, 9), (8.0, 4)], [(0.0, 1), (2.0, 2)], [(4.0, 3), (6.0, 9)], [(5.0, 3), (5.0, 3)]];
         uncovered(&mut stretches, &[1, 2, 3, 4], &mut edges);
         assert_eq!(edges, [[2, 3]]);
         edges.clear();

@@ -3,7 +3,8 @@
 use super::cell::Label;
 use super::patch::Patch;
 use super::shape::Shape;
-use super::works::Works;
+use super::works::{Works, remember};
+use crate::kernel::segment_tree::SegmentTree;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
@@ -18,6 +19,8 @@ pub(crate) struct Nodes {
     alias: Vec<u32>,
     /// Numbers of the points where design and ground meet.
     of: FxHashMap<Label, u32>,
+    /// Vertices on pieces of the boundary of the works that run past them, by the ends of the piece, lower number first.
+    splits: FxHashMap<[u32; 2], Vec<u32>>,
     ground: u32,
 }
 
@@ -27,7 +30,7 @@ impl Nodes {
         let places: Vec<DVec3> = shape.vertices.iter().chain(&patch.vertices).copied().collect();
         let ground = shape.vertices.len() as u32;
         let alias = (0..places.len() as u32).collect();
-        let mut nodes = Self { places, alias, of: FxHashMap::default(), ground };
+        let mut nodes = Self { places, alias, of: FxHashMap::default(), splits: FxHashMap::default(), ground };
         for &[design, of_ground] in &works.twins {
             nodes.alias[design as usize] = ground + of_ground;
         }
@@ -67,7 +70,99 @@ impl Nodes {
             near.add(id, p);
             nodes.of.insert(label, id);
         }
+        nodes.add_rim(shape, works);
         nodes
+    }
+
+    /// Puts points where design and ground meet onto all edges that run past them closer than [`WELD`].
+    ///
+    /// Where design and ground all but touch, rounding can carry a vertex across an edge nearby, and outlines would cross.
+    /// With the vertex on the edge they touch instead.
+    pub(crate) fn snap(&mut self, shape: &Shape, patch: &Patch, works: &mut Works) {
+        let mut points: Vec<(Label, u32)> =
+            works.points.keys().filter_map(|&label| Some((label, *self.of.get(&label)?))).collect();
+        points.sort_unstable();
+        let plan = |places: &[DVec3], v: u32| places[v as usize].truncate();
+        let borders: Vec<[u32; 2]> = works
+            .daylight
+            .iter()
+            .chain(&works.borders)
+            .chain(&works.rims)
+            .filter_map(|border| Some([*self.of.get(&border.from)?, *self.of.get(&border.to)?]))
+            .filter(|e| e[0] != e[1])
+            .map(|[a, b]| [a.min(b), a.max(b)])
+            .collect();
+        let mut edges: Vec<[u32; 2]> = Vec::new();
+        for a in (0..shape.triangles.len() as u32).filter(|&a| works.seen[a as usize]) {
+            edges.extend((0..3).map(|i| shape.edge(a, i)));
+        }
+        edges.sort_unstable();
+        edges.dedup();
+        let ends =
+            |list: &[[u32; 2]]| list.iter().map(|e| (plan(&self.places, e[0]), plan(&self.places, e[1]))).collect::<Vec<_>>();
+        let (near_border, near_edge) = (SegmentTree::new(&ends(&borders)), SegmentTree::new(&ends(&edges)));
+        for (label, id) in points {
+            let p = plan(&self.places, id);
+            let past = |e: [u32; 2]| {
+                let (a, b) = (plan(&self.places, e[0]), plan(&self.places, e[1]));
+                let t = (p - a).dot(b - a) / (b - a).length_squared();
+                !e.contains(&id) && t > 0.0 && t < 1.0 && a.lerp(b, t).distance(p) <= WELD
+            };
+            near_border.near(p, WELD, |i| {
+                if past(borders[i]) {
+                    let list = self.splits.entry(borders[i]).or_default();
+                    if !list.contains(&id) {
+                        list.push(id);
+                    }
+                }
+            });
+            near_edge.near(p, WELD, |i| {
+                if past(edges[i].map(|v| self.alias[v as usize])) {
+                    remember(&mut works.on_design, edges[i], label);
+                }
+            });
+            patch.near(p, p, |t| {
+                for edge in (0..3).map(|j| patch.edge(t, j)).filter(|e| past(e.map(|v| self.ground + v))) {
+                    remember(&mut works.on_ground, edge, label);
+                }
+            });
+        }
+    }
+
+    /// The pieces of an edge of the boundary of the works, from vertex to vertex.
+    pub(crate) fn pieces(&self, [from, to]: [u32; 2]) -> Vec<[u32; 2]> {
+        match self.splits.get(&[from.min(to), from.max(to)]) {
+            None => vec![[from, to]],
+            Some(list) => self.along([from, to], list.iter().copied()).windows(2).map(|w| [w[0], w[1]]).collect(),
+        }
+    }
+
+    /// The vertices from one end of a straight edge to the other with those of `between`, in order.
+    pub(crate) fn along(&self, [from, to]: [u32; 2], between: impl Iterator<Item = u32>) -> Vec<u32> {
+        let plan = |v: u32| self.places[v as usize].truncate();
+        let (a, d) = (plan(from), plan(to) - plan(from));
+        let place = |v: u32| (plan(v) - a).dot(d) / d.length_squared();
+        let mut inner: Vec<(f64, u32)> = between.filter(|&v| v != from && v != to).map(|v| (place(v), v)).collect();
+        inner.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+        inner.dedup_by_key(|p| p.1);
+        std::iter::once(from).chain(inner.into_iter().map(|p| p.1)).chain([to]).collect()
+    }
+
+    /// Numbers what stands above the edge of the ground: never a vertex of the ground itself.
+    fn add_rim(&mut self, shape: &Shape, works: &Works) {
+        let mut labels: Vec<(Label, DVec3)> = works.above_rim.iter().map(|(&label, &p)| (label, p)).collect();
+        labels.sort_unstable_by_key(|(label, _)| *label);
+        for (label, p) in labels {
+            let id = match label {
+                Label::Design(v) => self.alias[v as usize],
+                _ => {
+                    self.places.push(shape.frame.to_local(shape.frame.to_world(p)));
+                    self.alias.push(self.alias.len() as u32);
+                    self.places.len() as u32 - 1
+                }
+            };
+            self.of.entry(label).or_insert(id);
+        }
     }
 
     /// The end of the edge that `label` lies on, if it is that close.

@@ -118,9 +118,8 @@ impl Bounds {
         reach
     }
 
-    /// Triangles of the ground with a part in a cell that one of `reaches` or one of the triangles of `covers` comes into,
-    /// ascending.
-    pub(crate) fn touched(&self, terrain: &Terrain, reaches: &[Reach], covers: impl Iterator<Item = [DVec2; 3]>) -> Vec<u32> {
+    /// The cells that one of `reaches` or one of the triangles of `covers` comes into.
+    pub(crate) fn inside(&self, reaches: &[Reach], covers: impl Iterator<Item = [DVec2; 3]>) -> Vec<bool> {
         let mut inside = vec![false; self.range.len()];
         for reach in reaches {
             inside.iter_mut().zip(&reach.inside).for_each(|(all, one)| *all |= one);
@@ -128,6 +127,11 @@ impl Bounds {
         for corners in covers {
             self.cells_of(&corners, |c| inside[c] = true);
         }
+        inside
+    }
+
+    /// Triangles of the ground with a part in one of the cells `inside`, ascending.
+    pub(crate) fn touched(&self, terrain: &Terrain, inside: &[bool]) -> Vec<u32> {
         let mut touched = Vec::new();
         for (t, corners) in terrain.triangles.iter().enumerate() {
             let mut found = false;

@@ -8,7 +8,6 @@ use super::works::{Border, Works, clip};
 use crate::mesh::polygon;
 use crate::mesh::region::RegionError;
 use crate::model::Part;
-use glam::DVec2;
 use rustc_hash::FxHashMap;
 
 /// Triangles of the design after cutting, in numbers of [`Nodes`].
@@ -63,7 +62,7 @@ impl Trimmed {
             }
         }
         let mut rims: FxHashMap<u32, Vec<Border>> = FxHashMap::default();
-        for border in works.borders.iter().filter(|border| border.side.design.is_none()) {
+        for border in works.borders.iter().chain(&works.rims).filter(|border| border.side.design.is_none()) {
             rims.entry(border.a).or_default().push(*border);
         }
         for a in 0..shape.triangles.len() as u32 {
@@ -74,14 +73,14 @@ impl Trimmed {
             let edges = match cells.get(&a) {
                 Some(over) => {
                     let rims = rims.get(&a).map_or(&[][..], |list| list);
-                    Some(trimmed.piece(shape, patch, nodes, a, over, rims)?)
+                    Some(trimmed.piece(shape, patch, works, nodes, a, over, rims))
                 }
                 None => trimmed.with_points(shape, works, nodes, a),
             };
             match edges {
                 None => trimmed.push(shape.triangles[a as usize].map(|v| nodes.design(v)), a),
                 Some(edges) => {
-                    let found = polygon::fill(&nodes.places, &edges, |v| (v as usize) < nodes.places.len())?;
+                    let found = polygon::fill(&nodes.places, &edges, |_| true)?;
                     found.into_iter().for_each(|t| trimmed.push(t, a));
                 }
             }
@@ -101,15 +100,17 @@ impl Trimmed {
     }
 
     /// Edges of the part of triangle `a` in the works.
+    #[allow(clippy::too_many_arguments)]
     fn piece(
         &mut self,
         shape: &Shape,
         patch: &Patch,
+        works: &Works,
         nodes: &Nodes,
         a: u32,
         over: &[u32],
         rims: &[Border],
-    ) -> Result<Vec<[u32; 2]>, RegionError> {
+    ) -> Vec<[u32; 2]> {
         let sense = if shape.parts[a as usize] == Part::CutSlope { -1.0 } else { 1.0 };
         let mut passing = Passing::new(nodes);
         let (mut corners, mut kept) = (Vec::new(), Vec::new());
@@ -123,39 +124,35 @@ impl Trimmed {
                 let edge = [passing.id(corner), passing.id(next)];
                 if let Some(i) = corner.side.design {
                     on_sides[i as usize].push(edge);
-                    edges.push(edge);
                 } else if corner.side == Side::INSIDE {
-                    edges.push(edge);
+                    edges.extend(nodes.pieces(edge));
                 }
             }
         }
         for rim in rims {
             if let (Some(from), Some(to)) = (nodes.meeting(rim.from), nodes.meeting(rim.to)) {
-                edges.push([from, to]);
+                edges.extend(nodes.pieces([from, to]));
             }
         }
         for (i, list) in on_sides.iter().enumerate() {
-            self.take_down(shape.edge(a, i as u8), list, &passing);
-        }
-        Ok(edges)
-    }
-
-    /// Keeps which pieces of an edge of the design are in the mesh.
-    fn take_down(&mut self, edge: [u32; 2], pieces: &[[u32; 2]], passing: &Passing) {
-        let next: FxHashMap<u32, u32> = pieces.iter().filter(|e| e[0] != e[1]).map(|e| (e[0], e[1])).collect();
-        let list = self.pieces.entry(edge).or_default();
-        for e in pieces.iter().filter(|e| e[0] != e[1] && passing.is_vertex(e[0])) {
-            let mut at = e[1];
-            let mut steps = 0;
-            while !passing.is_vertex(at) && steps <= pieces.len() {
-                let Some(&to) = next.get(&at) else { break };
-                at = to;
-                steps += 1;
-            }
-            if passing.is_vertex(at) {
-                list.push([e[0].min(at), e[0].max(at)]);
+            let edge = shape.edge(a, i as u8);
+            let labels = works.on_design.get(&edge).map_or(&[][..], |list| list);
+            let known = self.pieces.entry(edge).or_default();
+            let ends = [i, (i + 1) % 3].map(|n| nodes.design(shape.triangles[a as usize][n]));
+            let path = nodes.along(ends, labels.iter().filter_map(|&label| nodes.meeting(label)));
+            for run in runs(list, &passing) {
+                let [from, to] = run.map(|v| path.iter().position(|&w| w == v));
+                let stretch = match (from, to) {
+                    (Some(from), Some(to)) if from < to => &path[from..=to],
+                    _ => &run,
+                };
+                for w in stretch.windows(2) {
+                    edges.push([w[0], w[1]]);
+                    known.push([w[0].min(w[1]), w[0].max(w[1])]);
+                }
             }
         }
+        edges
     }
 
     /// Edges of a triangle that stays as it is but for points on its sides; `None` if it has none.
@@ -169,7 +166,7 @@ impl Trimmed {
         for (i, list) in lists.iter().enumerate() {
             let ends = [t[i], t[(i + 1) % 3]];
             let ids = list.iter().filter_map(|&label| nodes.meeting(label));
-            let path = along(nodes, ends.map(|v| nodes.design(v)), ids);
+            let path = nodes.along(ends.map(|v| nodes.design(v)), ids);
             let pieces: Vec<[u32; 2]> = path.windows(2).map(|w| [w[0], w[1]]).collect();
             let known = self.pieces.entry(shape.edge(a, i as u8)).or_default();
             known.extend(pieces.iter().map(|e| [e[0].min(e[1]), e[0].max(e[1])]));
@@ -184,12 +181,23 @@ fn cut_off(part: Part, whole: bool) -> bool {
     !whole && part != Part::Platform
 }
 
-/// The vertices from one end of a straight edge to the other with those of `between`, in order.
-pub(crate) fn along(nodes: &Nodes, [from, to]: [u32; 2], between: impl Iterator<Item = u32>) -> Vec<u32> {
-    let plan = |v: u32| -> DVec2 { nodes.places[v as usize].truncate() };
-    let (a, d) = (plan(from), plan(to) - plan(from));
-    let mut inner: Vec<(f64, u32)> = between.filter(|&v| v != from && v != to).map(|v| ((plan(v) - a).dot(d), v)).collect();
-    inner.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
-    inner.dedup_by_key(|p| p.1);
-    std::iter::once(from).chain(inner.into_iter().map(|p| p.1)).chain([to]).collect()
+/// Stretches from vertex to vertex, of pieces of a side that follow one another.
+fn runs(pieces: &[[u32; 2]], passing: &Passing) -> Vec<[u32; 2]> {
+    let pieces: Vec<[u32; 2]> = pieces.iter().copied().filter(|e| e[0] != e[1]).collect();
+    let next: FxHashMap<u32, u32> = pieces.iter().map(|e| (e[0], e[1])).collect();
+    let mut runs = Vec::new();
+    for e in pieces.iter().filter(|e| passing.is_vertex(e[0])) {
+        let mut at = e[1];
+        // Places that are no vertices follow one another at most once each.
+        for _ in 0..pieces.len() {
+            if passing.is_vertex(at) {
+                break;
+            }
+            at = next.get(&at).copied().unwrap_or(at);
+        }
+        if passing.is_vertex(at) && at != e[0] {
+            runs.push([e[0], at]);
+        }
+    }
+    runs
 }

@@ -77,6 +77,10 @@ pub(crate) struct Works {
     pub(crate) seen: Vec<bool>,
     /// Ends that did not meet the ground.
     pub(crate) open: Vec<Open>,
+    /// Slopes cut off at the edge of the ground: that edge, works on the left.
+    pub(crate) rims: Vec<Border>,
+    /// Points of the design on the edge of the ground that become vertices, although design and ground do not meet there.
+    pub(crate) above_rim: FxHashMap<Label, DVec3>,
 }
 
 /// What takes the pieces of the works, one by one: a cell's part in the works, counter-clockwise, with its triangle of the design.
@@ -115,6 +119,8 @@ impl<'a, S: Sink> Flood<'a, S> {
             mixed: vec![false; shape.triangles.len()],
             seen: vec![false; shape.triangles.len()],
             open: Vec::new(),
+            rims: Vec::new(),
+            above_rim: FxHashMap::default(),
         };
         let mut flood = Self {
             shape,
@@ -144,31 +150,51 @@ impl<'a, S: Sink> Flood<'a, S> {
         }
     }
 
-    /// Starts at all cells along the line.
+    /// Starts at all cells that have a corner on the line where the design is not on the wrong side of the ground.
     fn seed(&mut self) {
+        let shape = self.shape;
+        let mut on_line = vec![false; shape.vertices.len()];
+        shape.hinge.iter().flatten().for_each(|&v| on_line[v as usize] = true);
         let mut near = Vec::new();
-        for a in 0..self.shape.triangles.len() as u32 {
-            let plan = self.shape.plan(a);
-            for i in 0..3_u8 {
-                if !self.shape.hinge.contains(&self.shape.edge(a, i)) {
-                    continue;
-                }
-                near.clear();
-                let (from, to) = (plan[i as usize], plan[(i as usize + 1) % 3]);
-                self.patch.near(from, to, |b| {
-                    if self.patch.meets_box(b, from, to) {
-                        near.push(b);
-                    }
-                });
-                near.sort_unstable();
-                near.dedup();
-                for &b in &near {
-                    cell(self.shape, self.patch, a, b, &mut self.corners);
-                    if self.corners.iter().any(|c| c.side.design == Some(i)) {
-                        self.push(a, b);
-                    }
+        for a in 0..shape.triangles.len() as u32 {
+            let plan = shape.plan(a);
+            let t = shape.triangles[a as usize];
+            let sides = (0..3_u8).filter(|&i| shape.hinge.contains(&shape.edge(a, i))).map(|i| 1 << i).sum::<u8>();
+            if sides == 0 && !t.iter().any(|&v| on_line[v as usize]) {
+                continue;
+            }
+            near.clear();
+            for i in 0..3 {
+                let to = if sides & 1 << i != 0 { plan[(i + 1) % 3] } else { plan[i] };
+                if sides & 1 << i != 0 || on_line[t[i] as usize] {
+                    self.patch.near(plan[i], to, |b| {
+                        if self.patch.meets_box(b, plan[i], to) {
+                            near.push(b);
+                        }
+                    });
                 }
             }
+            near.sort_unstable();
+            near.dedup();
+            let sense = self.sense(a);
+            let mut corners = std::mem::take(&mut self.corners);
+            for &b in &near {
+                cell(shape, self.patch, a, b, &mut corners);
+                let touches = |c: &Corner| c.on_design & sides != 0 || c.vertex != NONE && on_line[c.vertex as usize];
+                if corners.iter().any(|c| touches(c) && sense.is_none_or(|sense| class(sense * c.h) >= 0)) {
+                    self.push(a, b);
+                }
+            }
+            self.corners = corners;
+        }
+    }
+
+    /// Which side of the ground counts for a triangle of the design: above (1), below (−1), or both.
+    fn sense(&self, a: u32) -> Option<f64> {
+        match self.shape.parts[a as usize] {
+            Part::CutSlope if !self.whole => Some(-1.0),
+            Part::FillSlope if !self.whole => Some(1.0),
+            _ => None,
         }
     }
 
@@ -176,10 +202,9 @@ impl<'a, S: Sink> Flood<'a, S> {
         let mut corners = std::mem::take(&mut self.corners);
         cell(self.shape, self.patch, a, b, &mut corners);
         if !corners.is_empty() {
-            match self.shape.parts[a as usize] {
-                Part::CutSlope if !self.whole => self.slope(a, b, &corners, -1.0),
-                Part::FillSlope if !self.whole => self.slope(a, b, &corners, 1.0),
-                _ => self.flat(a, b, &corners),
+            match self.sense(a) {
+                Some(sense) => self.slope(a, b, &corners, sense),
+                None => self.flat(a, b, &corners),
             }
         }
         self.corners = corners;
@@ -238,9 +263,21 @@ impl<'a, S: Sink> Flood<'a, S> {
         } else if next_b == NONE {
             self.works.mixed[a as usize] = true;
             self.open(End::Ground, ends);
+            self.rim(border, ends);
         } else {
             self.push(next_a, next_b);
         }
+    }
+
+    /// Cuts the design off at the edge of the ground.
+    fn rim(&mut self, border: &Border, ends: [&Corner; 2]) {
+        for corner in ends.into_iter().filter(|c| class(c.h) != 0) {
+            self.works.above_rim.entry(corner.label).or_insert_with(|| corner.at.extend(corner.z));
+            for i in (0..3).filter(|i| corner.on_design & 1 << i != 0) {
+                remember(&mut self.works.on_design, self.shape.edge(border.a, i), corner.label);
+            }
+        }
+        self.works.rims.push(*border);
     }
 
     fn open(&mut self, end: End, ends: [&Corner; 2]) {
@@ -316,7 +353,8 @@ impl<'a, S: Sink> Flood<'a, S> {
     }
 }
 
-fn remember(edges: &mut FxHashMap<[u32; 2], Vec<Label>>, edge: [u32; 2], label: Label) {
+/// Takes down a point on an edge.
+pub(crate) fn remember(edges: &mut FxHashMap<[u32; 2], Vec<Label>>, edge: [u32; 2], label: Label) {
     let list = edges.entry(edge).or_default();
     if !list.contains(&label) {
         list.push(label);
