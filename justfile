@@ -30,6 +30,7 @@ bench:
     cargo bench --bench engine
     cargo bench --bench overlay
     cargo bench --bench reading
+    cargo bench --bench ground
 
 # The pictures of the README, from fixtures
 picture:

@@ -19,6 +19,7 @@ use crate::slope::levels;
 use crate::surface::{self, Surface, SurfaceError, Watch};
 use crate::terrain::inspect;
 use glam::{DVec2, DVec3};
+use std::sync::{Arc, OnceLock};
 
 /// Slopes are built this part of their depth beyond the lowest (highest) ground they can reach, and at least
 /// [`LEAST_BEYOND`] tolerances: they then meet the ground within the mesh.
@@ -43,6 +44,8 @@ pub struct Site<'a> {
     reaches: Vec<Reach>,
     /// The ends that were proposed.
     ends: Vec<(Sheet, f64)>,
+    /// The first part of the ground that was asked for, with the cells of `bounds` it belongs to.
+    first_patch: OnceLock<(Vec<bool>, Arc<Patch>)>,
 }
 
 /// What is wanted of the ground.
@@ -68,12 +71,17 @@ impl<'a> Site<'a> {
         }
         let terrain = terrain.in_frame(Frame::around(lo, hi));
         let bounds = Bounds::new(&terrain);
-        Self { line, terrain, label, bounds, reaches: Vec::new(), ends: Vec::new() }
+        Self { line, terrain, label, bounds, reaches: Vec::new(), ends: Vec::new(), first_patch: OnceLock::new() }
     }
 
     /// The ground.
     pub fn terrain(&self) -> &Terrain {
         &self.terrain
+    }
+
+    /// Plan area of the ground.
+    pub fn area(&self) -> f64 {
+        self.bounds.area
     }
 
     /// Finds how far slopes of a sheet can reach before they meet the ground, and the elevation at which that is.
@@ -207,10 +215,16 @@ impl<'a> Site<'a> {
         Ok(designs.iter().map(deepened).collect())
     }
 
-    /// The part of the ground that the works can touch.
-    fn patch(&self, shape: &Shape, whole: bool) -> Patch {
+    /// The part of the ground that the works can touch. Nearly always that is the same for the coarse build and the build proper.
+    fn patch(&self, shape: &Shape, whole: bool) -> Arc<Patch> {
         let flats = (0..shape.triangles.len() as u32).filter(|&a| whole || shape.parts[a as usize] == Part::Platform);
-        Patch::new(&self.terrain, self.bounds.touched(&self.terrain, &self.reaches, flats.map(|a| shape.plan(a))))
+        let inside = self.bounds.inside(&self.reaches, flats.map(|a| shape.plan(a)));
+        if let Some((_, patch)) = self.first_patch.get().filter(|(cells, _)| *cells == inside) {
+            return Arc::clone(patch);
+        }
+        let patch = Arc::new(Patch::new(&self.terrain, self.bounds.touched(&self.terrain, &inside)));
+        self.first_patch.get_or_init(|| (inside, Arc::clone(&patch)));
+        patch
     }
 
     /// The designs in one frame, with one interval, each simplifying the line as the other needs it.
@@ -235,7 +249,7 @@ impl<'a> Site<'a> {
     }
 
     fn surfaces(&self, designs: &[Design], watch: &dyn Watch) -> Result<Vec<Surface>, GroundError> {
-        let build = |design: &Design| surface::build(self.line, design, None, watch);
+        let build = |design: &Design| surface::build_uncut(self.line, design, watch);
         let surfaces = match designs {
             [first, second] => {
                 let (first, second) = rayon::join(|| build(first), || build(second));
