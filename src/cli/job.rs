@@ -228,6 +228,13 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         let format = checks.format(MeshFormat::of(&target));
         meshes.extend(format.map(|format| (target, format)));
     }
+    if side == Some(Side::Inside) && slopes.len() > 1 {
+        checks.0.push(
+            "slopes inside a ring need a direction\n  --> --side inside\n   \
+             = help: choose `--direction down` for a pit from its rim, or `--direction up` for a mound from its foot"
+                .to_owned(),
+        );
+    }
     let mut finished = Vec::new();
     for target in targets(&args.finished) {
         let format = checks.format(MeshFormat::of(&target));

@@ -9,7 +9,7 @@ use super::shape::Shape;
 use super::stations::Stations;
 use super::tally::Tally;
 use super::trimmed::Trimmed;
-use super::works::{Flood, Sink, Works};
+use super::works::{End, Flood, Sink, Works};
 use super::{Axis, Corner, GroundError, Piece, SectionFigures, Sections, cell};
 use crate::kernel::frame::Frame;
 use crate::kernel::sum::Sum;
@@ -131,7 +131,7 @@ impl<'a> Site<'a> {
         let mut works = Flood::run(&shape, &patch, whole, &mut feeder);
         let fed = feeder.finish();
         self.check_covered(&shape, &fed, options)?;
-        check_open(&shape, &works, options)?;
+        check_open(&shape, &works, &designs, options)?;
         go_on("daylight")?;
         let mut nodes = Nodes::new(&shape, &patch, &works);
         let assemble = |works: &Works, nodes: &Nodes| {
@@ -319,19 +319,24 @@ fn inspected(patch: &Patch, terrain: &Terrain, label: &str) -> Result<Vec<Note>,
     if findings.defects.list.is_empty() { Ok(findings.notes) } else { Err(GroundError::Terrain(findings.defects)) }
 }
 
-fn check_open(shape: &Shape, works: &Works, options: &Options) -> Result<(), GroundError> {
-    use super::works::End;
-    let Some(first) = works.open.iter().max_by(|p, q| p.height.total_cmp(&q.height)) else { return Ok(()) };
+/// Refuses slopes that end without meeting the ground.
+fn check_open(shape: &Shape, works: &Works, designs: &[Design], options: &Options) -> Result<(), GroundError> {
+    let Some(worst) = works.open.iter().max_by(|p, q| p.height.total_cmp(&q.height)) else { return Ok(()) };
     if options.allow_open {
         return Ok(());
     }
     let length = works.open.iter().map(|o| o.points[0].truncate().distance(o.points[1].truncate())).collect::<Sum>();
-    let at = shape.frame.to_world(first.points[0]);
-    let (place, cure) = match first.end {
-        End::Ground => ("at the edge of the ground", "use a ground that reaches further and has no holes"),
-        End::Slope => ("at the end asked for", "give a later end, or none"),
+    let at = shape.frame.to_world(worst.points[0]);
+    let at_end = |design: &Design| match design.extent {
+        Extent::Elevation(end) => worst.points.iter().all(|p| (p.z - end).abs() <= levels::LEVEL_SNAP),
+        Extent::Height(_) | Extent::Distance(_) => true,
     };
-    Err(GroundError::Open { x: at.x, y: at.y, length: length.value(), height: first.height, at: place, cure })
+    let (place, cure) = match worst.end {
+        End::Ground => ("at the edge of the ground", "use a ground that reaches further and has no holes"),
+        End::Slope if designs.iter().any(at_end) => ("at the end asked for", "give a later end, or none"),
+        End::Slope => ("beside the end of the line, where slopes of one side stop", "build both sides (`--side both`)"),
+    };
+    Err(GroundError::Open { x: at.x, y: at.y, length: length.value(), height: worst.height, at: place, cure })
 }
 
 /// What the feeder has gathered.

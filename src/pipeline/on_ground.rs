@@ -6,7 +6,7 @@ use super::{Error, Wishes, check_steepness, figures, ground};
 use crate::ground::{Options, Site};
 use crate::kernel::sum::Sum;
 use crate::mesh::volume::plan_area;
-use crate::model::{Design, Extent, Line, Sheet, Terrain};
+use crate::model::{Design, Extent, Line, Sheet, Side, Terrain};
 use crate::read::Source;
 use crate::read::terrain::TerrainOptions;
 use crate::report::TerrainFigures;
@@ -58,6 +58,11 @@ fn designs(all: &[Wishes], site: &mut Site<'_>, line: &Line, label: &str, watch:
     let mut chosen = Vec::new();
     let mut designs = Vec::new();
     for wishes in all {
+        if wishes.side == Some(Side::Inside) {
+            // A pit or a mound ends at its floor, not at the ground.
+            designs.push(wishes.settle(line, label, &mut chosen)?);
+            continue;
+        }
         let end = site.end(wishes.slope, wishes.sheet, wishes.tolerance);
         let applies = |extent: &Extent| match (*extent, wishes.sheet) {
             (Extent::Elevation(z), Sheet::Falling) => z < high,
