@@ -172,7 +172,7 @@ impl<'a> Site<'a> {
         match assemble(&works, &nodes) {
             Err(GroundError::Cut { .. } | GroundError::Unsound { .. }) => {
                 nodes.snap(&shape, &patch, &mut works);
-                assemble(&works, &nodes)
+                assemble(&works, &nodes).map_err(|error| open_mesh(error, &shape, &works))
             }
             built => built,
         }
@@ -352,6 +352,17 @@ fn check_open(shape: &Shape, works: &Works, designs: &[Design], options: &Option
         End::Slope => ("beside the end of the line, where slopes of one side stop", "build both sides (`--side both`)"),
     };
     Err(GroundError::Open { x: at.x, y: at.y, length: length.value(), height: worst.height, at: place, cure })
+}
+
+/// Where ends are open, the meshes cannot always be put together: that is then the reason.
+fn open_mesh(error: GroundError, shape: &Shape, works: &Works) -> GroundError {
+    match (&error, works.open.first()) {
+        (GroundError::Cut { .. } | GroundError::Unsound { .. }, Some(open)) => {
+            let at = shape.frame.to_world(open.points[0]);
+            GroundError::OpenMesh { x: at.x, y: at.y }
+        }
+        _ => error,
+    }
 }
 
 /// Notes on ends that do not meet the ground: slopes that stop short of it, and lines without a slope to it.
