@@ -2,7 +2,7 @@
 
 use super::cell::{Corner, Label, cell, class};
 use super::nodes::Nodes;
-use super::patch::{NONE, Patch};
+use super::patch::Patch;
 use super::shape::Shape;
 use super::trimmed::{Passing, runs};
 use super::works::{Border, Works, clip, split_sides};
@@ -129,7 +129,7 @@ fn on_side(corner: &Corner, nodes: &Nodes, passing: &mut Passing) -> u32 {
     match corner.label {
         Label::Ground(v) => nodes.ground(v),
         _ if class(corner.h) == 0 => passing.id(corner),
-        _ => passing.id(&Corner { vertex: NONE, ..*corner }),
+        label => passing.place(label),
     }
 }
 

@@ -39,8 +39,13 @@ impl<'a> Passing<'a> {
         if corner.vertex != NONE {
             return self.nodes.design(corner.vertex);
         }
+        self.place(corner.label)
+    }
+
+    /// The number of a mere place, whether or not there is a vertex above it.
+    pub(crate) fn place(&mut self, label: Label) -> u32 {
         let next = self.first + self.of.len() as u32;
-        *self.of.entry(corner.label).or_insert(next)
+        *self.of.entry(label).or_insert(next)
     }
 
     pub(crate) fn is_vertex(&self, id: u32) -> bool {
