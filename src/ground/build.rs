@@ -19,6 +19,7 @@ use crate::slope::levels;
 use crate::surface::{self, Surface, SurfaceError, Watch};
 use crate::terrain::inspect;
 use glam::{DVec2, DVec3};
+use std::sync::{Arc, OnceLock};
 
 /// Slopes are built this part of their depth beyond the lowest (highest) ground they can reach, and at least
 /// [`LEAST_BEYOND`] tolerances: they then meet the ground within the mesh.
@@ -43,6 +44,8 @@ pub struct Site<'a> {
     reaches: Vec<Reach>,
     /// The ends that were proposed.
     ends: Vec<(Sheet, f64)>,
+    /// The first part of the ground that was asked for, with the cells of `bounds` it belongs to.
+    first_patch: OnceLock<(Vec<bool>, Arc<Patch>)>,
 }
 
 /// What is wanted of the ground.
@@ -68,12 +71,17 @@ impl<'a> Site<'a> {
         }
         let terrain = terrain.in_frame(Frame::around(lo, hi));
         let bounds = Bounds::new(&terrain);
-        Self { line, terrain, label, bounds, reaches: Vec::new(), ends: Vec::new() }
+        Self { line, terrain, label, bounds, reaches: Vec::new(), ends: Vec::new(), first_patch: OnceLock::new() }
     }
 
     /// The ground.
     pub fn terrain(&self) -> &Terrain {
         &self.terrain
+    }
+
+    /// Plan area of the ground.
+    pub fn area(&self) -> f64 {
+        self.bounds.area
     }
 
     /// Finds how far slopes of a sheet can reach before they meet the ground, and the elevation at which that is.
@@ -125,7 +133,7 @@ impl<'a> Site<'a> {
             what: "its slopes do not have the points of the line in common".to_owned(),
         })?;
         let patch = self.patch(&shape, whole);
-        let notes = inspected(&patch, &self.terrain, self.label)?;
+        let mut notes = inspected(&patch, &self.terrain, self.label)?;
         let stations = Stations::new(self.axes(), options.stations)?;
         let mut feeder = Feeder::new(&shape, &stations);
         let mut works = Flood::run(&shape, &patch, whole, &mut feeder);
@@ -134,6 +142,7 @@ impl<'a> Site<'a> {
         check_open(&shape, &works, &designs, options)?;
         go_on("daylight")?;
         let mut nodes = Nodes::new(&shape, &patch, &works);
+        notes.extend(standing(&shape, &works));
         let assemble = |works: &Works, nodes: &Nodes| {
             let cut = |what| move |cause| GroundError::Cut { what, cause };
             let trimmed = Trimmed::new(&shape, &patch, works, nodes, whole).map_err(cut("the design"))?;
@@ -163,7 +172,7 @@ impl<'a> Site<'a> {
         match assemble(&works, &nodes) {
             Err(GroundError::Cut { .. } | GroundError::Unsound { .. }) => {
                 nodes.snap(&shape, &patch, &mut works);
-                assemble(&works, &nodes)
+                assemble(&works, &nodes).map_err(|error| open_mesh(error, &shape, &works))
             }
             built => built,
         }
@@ -206,10 +215,16 @@ impl<'a> Site<'a> {
         Ok(designs.iter().map(deepened).collect())
     }
 
-    /// The part of the ground that the works can touch.
-    fn patch(&self, shape: &Shape, whole: bool) -> Patch {
+    /// The part of the ground that the works can touch. Nearly always that is the same for the coarse build and the build proper.
+    fn patch(&self, shape: &Shape, whole: bool) -> Arc<Patch> {
         let flats = (0..shape.triangles.len() as u32).filter(|&a| whole || shape.parts[a as usize] == Part::Platform);
-        Patch::new(&self.terrain, self.bounds.touched(&self.terrain, &self.reaches, flats.map(|a| shape.plan(a))))
+        let inside = self.bounds.inside(&self.reaches, flats.map(|a| shape.plan(a)));
+        if let Some((_, patch)) = self.first_patch.get().filter(|(cells, _)| *cells == inside) {
+            return Arc::clone(patch);
+        }
+        let patch = Arc::new(Patch::new(&self.terrain, self.bounds.touched(&self.terrain, &inside)));
+        self.first_patch.get_or_init(|| (inside, Arc::clone(&patch)));
+        patch
     }
 
     /// The designs in one frame, with one interval, each simplifying the line as the other needs it.
@@ -234,7 +249,7 @@ impl<'a> Site<'a> {
     }
 
     fn surfaces(&self, designs: &[Design], watch: &dyn Watch) -> Result<Vec<Surface>, GroundError> {
-        let build = |design: &Design| surface::build(self.line, design, None, watch);
+        let build = |design: &Design| surface::build_uncut(self.line, design, watch);
         let surfaces = match designs {
             [first, second] => {
                 let (first, second) = rayon::join(|| build(first), || build(second));
@@ -337,6 +352,33 @@ fn check_open(shape: &Shape, works: &Works, designs: &[Design], options: &Option
         End::Slope => ("beside the end of the line, where slopes of one side stop", "build both sides (`--side both`)"),
     };
     Err(GroundError::Open { x: at.x, y: at.y, length: length.value(), height: worst.height, at: place, cure })
+}
+
+/// Where ends are open, the meshes cannot always be put together: that is then the reason.
+fn open_mesh(error: GroundError, shape: &Shape, works: &Works) -> GroundError {
+    match (&error, works.open.first()) {
+        (GroundError::Cut { .. } | GroundError::Unsound { .. }, Some(open)) => {
+            let at = shape.frame.to_world(open.points[0]);
+            GroundError::OpenMesh { x: at.x, y: at.y }
+        }
+        _ => error,
+    }
+}
+
+/// Notes on ends that do not meet the ground: slopes that stop short of it, and lines without a slope to it.
+fn standing(shape: &Shape, works: &Works) -> Vec<Note> {
+    let note = |code, what: &str, ends: Vec<([DVec3; 2], f64)>| {
+        let highest = ends.iter().max_by(|p, q| p.1.total_cmp(&q.1))?;
+        let length = ends.iter().map(|(p, _)| p[0].truncate().distance(p[1].truncate())).collect::<Sum>().value();
+        let at = shape.frame.to_world(highest.0[0]);
+        let height = highest.1;
+        let text = format!("{what} on a length of {length:.3}: up to {height:.3}, near ({:.3}, {:.3})", at.x, at.y);
+        Some(Note::new(code, text))
+    };
+    let open = works.open.iter().map(|o| (o.points, o.height)).collect();
+    let walls = works.borders.iter().filter(|b| cell::class(b.height) != 0).map(|b| (b.points, b.height)).collect();
+    let open = note("open-ends", "slopes end above or below the ground", open);
+    open.into_iter().chain(note("walls", "the line stands off the ground with no slope between the two", walls)).collect()
 }
 
 /// What the feeder has gathered.

@@ -1,5 +1,6 @@
 //! The part of the ground that the works can touch, with neighbours.
 
+use crate::mesh::volume::plan_area;
 use crate::model::Terrain;
 use glam::{DVec2, DVec3};
 
@@ -59,6 +60,12 @@ impl Patch {
             self.bins.list[range].iter().for_each(|&t| visit(t));
         });
     }
+
+    /// Whether the boxes of triangle `t` and of the segment from `a` to `b` meet, their edges included.
+    pub(crate) fn meets_box(&self, t: u32, a: DVec2, b: DVec2) -> bool {
+        let [p, q, r] = self.triangles[t as usize].map(|v| self.vertices[v as usize].truncate());
+        p.min(q).min(r).cmple(a.max(b)).all() && a.min(b).cmple(p.max(q).max(r)).all()
+    }
 }
 
 /// Neighbours of triangles across their sides; [`NONE`] where there is none. Sides used more than twice pair up in order.
@@ -109,8 +116,11 @@ struct Bins {
     list: Vec<u32>,
 }
 
-/// Triangles per bin, on average.
+/// Triangles of mean area that a bin has room for.
 const TRIANGLES_PER_BIN: f64 = 4.0;
+
+/// Most bins for each triangle: the box of a long bent strip is nearly empty.
+const BINS_PER_TRIANGLE: f64 = 4.0;
 
 /// Bins are taken wider by this part when a segment is followed, so that rounding loses none.
 const WIDER: f64 = 0.01;
@@ -127,8 +137,11 @@ impl Bins {
             return Self { origin: DVec2::ZERO, cell: 1.0, size: [0, 0], start: vec![0, 0], list: Vec::new() };
         }
         let extent = hi - lo;
-        let bins = (triangles.len() as f64 / TRIANGLES_PER_BIN).max(1.0);
-        let cell = (extent.x * extent.y / bins).sqrt().max(extent.max_element() / bins).max(f64::MIN_POSITIVE);
+        let count = triangles.len() as f64;
+        let area: f64 = triangles.iter().map(|t| plan_area(t.map(|v| vertices[v as usize]))).sum();
+        let most = (BINS_PER_TRIANGLE * count).max(1.0);
+        let roomy = (TRIANGLES_PER_BIN * area / count).sqrt();
+        let cell = roomy.max((extent.x * extent.y / most).sqrt()).max(extent.max_element() / most).max(f64::MIN_POSITIVE);
         let size = [(extent.x / cell) as usize + 1, (extent.y / cell) as usize + 1];
         let mut bins = Self { origin: lo, cell, size, start: Vec::new(), list: Vec::new() };
         // The last list takes the large ones.

@@ -1,6 +1,8 @@
 //! How far the slopes can possibly reach: coarse bounds of the ground against a bound of the sheet.
 
 use crate::kernel::frame::Frame;
+use crate::kernel::sum::Sum;
+use crate::mesh::volume::plan_area;
 use crate::model::{Line, Sheet, Slope, Terrain};
 use crate::sheet::Heights;
 use glam::DVec2;
@@ -8,19 +10,30 @@ use glam::DVec2;
 /// Triangles per cell of the coarse grid, on average.
 const TRIANGLES_PER_CELL: f64 = 16.0;
 
-/// Most cells along one side of the grid.
+/// Most cells along one side of the grid; their numbers fit into 16 bits.
 const MOST_CELLS: f64 = 512.0;
+
+/// Triangles whose areas are added up plainly, before the sum goes to one that is compensated: a chain of compensated additions
+/// waits for every single one of them. A block of so few loses no more than a few units in the last place of itself.
+const BLOCK: usize = 32;
 
 /// Rows and columns are taken wider by this part of a cell, so that rounding loses none.
 const WIDER: f64 = 1e-6;
 
 /// Lowest and highest ground over the cells of a coarse grid.
+///
+/// Grounds have millions of triangles of which the works touch few, so the two passes over all of them decide the time: both look
+/// at columns and rows of vertices, found once, and nearly all triangles have their vertices in one cell or two.
 pub(crate) struct Bounds {
     origin: DVec2,
     cell: DVec2,
     size: [usize; 2],
     /// Lowest and highest ground of each cell; the wrong way round where there is none.
     range: Vec<[f64; 2]>,
+    /// Column and row of each vertex of the ground.
+    places: Vec<[u16; 2]>,
+    /// Plan area of the ground.
+    pub(crate) area: f64,
 }
 
 /// The cells of the grid that slopes can reach.
@@ -40,14 +53,27 @@ impl Bounds {
         let across = |a: f64, b: f64| (cells * a / b).sqrt().ceil().clamp(1.0, MOST_CELLS);
         let size = [across(extent.x, extent.y) as usize, across(extent.y, extent.x) as usize];
         let cell = extent / DVec2::new(size[0] as f64, size[1] as f64);
-        let mut bounds = Self { origin: lo, cell, size, range: vec![[f64::INFINITY, f64::NEG_INFINITY]; size[0] * size[1]] };
-        for t in 0..terrain.triangles.len() {
-            let corners = terrain.corners(t);
-            let z = corners.map(|p| p.z);
-            let (low, high) = (z[0].min(z[1]).min(z[2]), z[0].max(z[1]).max(z[2]));
-            let plan = corners.map(|p| p.truncate());
-            bounds.visit(&plan, |range: &mut [f64; 2]| *range = [range[0].min(low), range[1].max(high)]);
+        let range = vec![[f64::INFINITY, f64::NEG_INFINITY]; size[0] * size[1]];
+        let mut bounds = Self { origin: lo, cell, size, range, places: Vec::new(), area: 0.0 };
+        bounds.places = terrain.vertices.iter().map(|v| [bounds.index(v.x, 0) as u16, bounds.index(v.y, 1) as u16]).collect();
+        let mut range = std::mem::take(&mut bounds.range);
+        let mut area = Sum::default();
+        for block in terrain.triangles.chunks(BLOCK) {
+            let mut of_block = 0.0;
+            for t in block {
+                let corners = t.map(|v| terrain.vertices[v as usize]);
+                of_block += plan_area(corners);
+                let z = corners.map(|p| p.z);
+                let (low, high) = (z[0].min(z[1]).min(z[2]), z[0].max(z[1]).max(z[2]));
+                bounds.cells_of_ground(terrain, t, |c| {
+                    range[c][0] = range[c][0].min(low);
+                    range[c][1] = range[c][1].max(high);
+                });
+            }
+            area.add(of_block);
         }
+        bounds.range = range;
+        bounds.area = area.value();
         bounds
     }
 
@@ -92,9 +118,8 @@ impl Bounds {
         reach
     }
 
-    /// Triangles of the ground with a part in a cell that one of `reaches` or one of the triangles of `covers` comes into,
-    /// ascending.
-    pub(crate) fn touched(&self, terrain: &Terrain, reaches: &[Reach], covers: impl Iterator<Item = [DVec2; 3]>) -> Vec<u32> {
+    /// The cells that one of `reaches` or one of the triangles of `covers` comes into.
+    pub(crate) fn inside(&self, reaches: &[Reach], covers: impl Iterator<Item = [DVec2; 3]>) -> Vec<bool> {
         let mut inside = vec![false; self.range.len()];
         for reach in reaches {
             inside.iter_mut().zip(&reach.inside).for_each(|(all, one)| *all |= one);
@@ -102,18 +127,40 @@ impl Bounds {
         for corners in covers {
             self.cells_of(&corners, |c| inside[c] = true);
         }
-        let touches = |t: &usize| {
-            let mut found = false;
-            self.cells_of(&terrain.corners(*t).map(|p| p.truncate()), |c| found |= inside[c]);
-            found
-        };
-        (0..terrain.triangles.len()).filter(touches).map(|t| t as u32).collect()
+        inside
     }
 
-    fn visit(&mut self, corners: &[DVec2; 3], mut change: impl FnMut(&mut [f64; 2])) {
-        let mut range = std::mem::take(&mut self.range);
-        self.cells_of(corners, |c| change(&mut range[c]));
-        self.range = range;
+    /// Triangles of the ground with a part in one of the cells `inside`, ascending.
+    pub(crate) fn touched(&self, terrain: &Terrain, inside: &[bool]) -> Vec<u32> {
+        let mut touched = Vec::new();
+        for (t, corners) in terrain.triangles.iter().enumerate() {
+            let mut found = false;
+            self.cells_of_ground(terrain, corners, |c| found |= inside[c]);
+            if found {
+                touched.push(t as u32);
+            }
+        }
+        touched
+    }
+
+    /// The same cells as [`Self::cells_of`], for a triangle of the ground.
+    #[inline]
+    fn cells_of_ground(&self, terrain: &Terrain, t: &[u32; 3], mut visit: impl FnMut(usize)) {
+        let [a, b, c] = t.map(|v| self.places[v as usize]);
+        let cell = |p: [u16; 2]| usize::from(p[1]) * self.size[0] + usize::from(p[0]);
+        if a == b && b == c {
+            visit(cell(a));
+            return;
+        }
+        let (x0, x1) = (a[0].min(b[0]).min(c[0]), a[0].max(b[0]).max(c[0]));
+        let (y0, y1) = (a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1]));
+        if x1 - x0 < 2 || y0 == y1 {
+            for y in y0..=y1 {
+                (cell([x0, y])..=cell([x1, y])).for_each(&mut visit);
+            }
+        } else {
+            self.cells_of(&t.map(|v| terrain.vertices[v as usize].truncate()), visit);
+        }
     }
 
     /// Column or row of a coordinate, within the grid.

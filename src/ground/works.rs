@@ -96,7 +96,8 @@ pub(crate) struct Flood<'a, S> {
     whole: bool,
     sink: &'a mut S,
     works: Works,
-    visited: FxHashSet<(u32, u32)>,
+    /// Cells that are or were pending, both numbers in one: that is what the flood looks up most.
+    visited: FxHashSet<u64>,
     pending: Vec<(u32, u32)>,
     corners: Vec<Corner>,
     kept: Vec<Corner>,
@@ -144,7 +145,7 @@ impl<'a, S: Sink> Flood<'a, S> {
     }
 
     fn push(&mut self, a: u32, b: u32) {
-        if self.visited.insert((a, b)) {
+        if self.visited.insert(u64::from(a) << 32 | u64::from(b)) {
             self.pending.push((a, b));
         }
     }
@@ -164,10 +165,13 @@ impl<'a, S: Sink> Flood<'a, S> {
             }
             near.clear();
             for i in 0..3 {
-                if sides & 1 << i != 0 {
-                    self.patch.near(plan[i], plan[(i + 1) % 3], |b| near.push(b));
-                } else if on_line[t[i] as usize] {
-                    self.patch.near(plan[i], plan[i], |b| near.push(b));
+                let to = if sides & 1 << i != 0 { plan[(i + 1) % 3] } else { plan[i] };
+                if sides & 1 << i != 0 || on_line[t[i] as usize] {
+                    self.patch.near(plan[i], to, |b| {
+                        if self.patch.meets_box(b, plan[i], to) {
+                            near.push(b);
+                        }
+                    });
                 }
             }
             near.sort_unstable();

@@ -19,6 +19,7 @@ impl Box2 {
     /// The whole plane.
     pub(super) const ALL: Self = Self { lo: DVec2::NEG_INFINITY, hi: DVec2::INFINITY };
 
+    #[inline]
     pub(super) fn around(points: impl IntoIterator<Item = DVec2>) -> Self {
         points.into_iter().fold(Self::EMPTY, |b, p| Self { lo: b.lo.min(p), hi: b.hi.max(p) })
     }
@@ -27,6 +28,16 @@ impl Box2 {
         Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
     }
 
+    /// The sides of the box beyond which a point lies, a bit each. The box of points that share such a bit does not meet this one,
+    /// and every other does.
+    #[inline]
+    pub(super) fn beyond(&self, p: DVec2) -> u8 {
+        let [left, low] = [p.x < self.lo.x, p.y < self.lo.y];
+        let [right, high] = [p.x > self.hi.x, p.y > self.hi.y];
+        u8::from(left) | u8::from(low) << 1 | u8::from(right) << 2 | u8::from(high) << 3
+    }
+
+    #[inline]
     pub(super) fn meets(&self, other: &Self) -> bool {
         self.lo.cmple(other.hi).all() && other.lo.cmple(self.hi).all()
     }

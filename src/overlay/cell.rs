@@ -109,22 +109,30 @@ impl Ring {
 
     /// The part where coordinate `K` is positive.
     ///
-    /// Without branches on signs, which nothing can predict: every corner and every crossing is written, and what does not
-    /// belong is written over by the next.
+    /// Without branches on signs, which nothing can predict: every corner is written, and what does not belong is written over by
+    /// the next. Crossings come second, into the places left for them: of a convex ring there are two.
     #[inline]
     fn cut<const K: usize>(&self, out: &mut Self) {
         // Never reached by more than `MOST` corners; the mask is cheaper than a check.
         const ROOM: usize = MOST - 1;
+        let next = |i: usize| if i + 1 == self.len { 0 } else { (i + 1) & ROOM };
+        let mut places = [0_u8; MOST];
+        let mut changes = 0_u32;
         let mut len = 0;
         for i in 0..self.len.min(MOST) {
-            let (here, next) = (&self.corners[i], &self.corners[if i + 1 == self.len { 0 } else { i + 1 } & ROOM]);
-            let (stays, comes) = (here[K] > 0.0, next[K] > 0.0);
-            out.corners[len & ROOM] = *here;
+            let (stays, comes) = (self.corners[i][K] > 0.0, self.corners[next(i)][K] > 0.0);
+            out.corners[len & ROOM] = self.corners[i];
             out.edges[len & ROOM] = self.edges[i];
             len += usize::from(stays);
-            out.corners[len & ROOM] = crossing::<K>(here, next);
+            places[i] = (len & ROOM) as u8;
             out.edges[len & ROOM] = if stays { CUT + K as u8 } else { self.edges[i] };
             len += usize::from(stays != comes);
+            changes |= u32::from(stays != comes) << i;
+        }
+        while changes != 0 {
+            let i = changes.trailing_zeros() as usize & ROOM;
+            out.corners[usize::from(places[i]) & ROOM] = crossing::<K>(&self.corners[i], &self.corners[next(i)]);
+            changes &= changes - 1;
         }
         out.len = len;
     }

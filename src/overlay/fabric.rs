@@ -10,6 +10,9 @@ use glam::DVec3;
 /// No neighbour, no number.
 pub(super) const NONE: u32 = u32::MAX;
 
+/// Marks a vertex that a triangle uses, beside the bits of [`Box2::beyond`].
+const USED: u8 = 1 << 4;
+
 /// Triangles in an order in which those that follow each other lie near each other.
 ///
 /// Half-edge `3t + e` runs from corner `e` of triangle `t` to the next one.
@@ -29,21 +32,21 @@ impl Fabric {
         let same = mesh.frame == frame;
         let place = |v: &DVec3| if same { *v } else { frame.to_local(mesh.frame.to_world(*v)) };
         let points: Vec<DVec3> = mesh.vertices.iter().map(place).collect();
+        let mut sides: Vec<u8> = points.iter().map(|p| keep.beyond(p.truncate())).collect();
         let mut area = Sum::default();
-        let mut rank = vec![NONE; points.len()];
         let mut kept = Vec::with_capacity(mesh.triangles.len());
         for t in &mesh.triangles {
-            let corners = t.map(|v| points[v as usize]);
-            let double_area = double_area(corners);
-            area.add(0.5 * double_area.abs());
-            if double_area == 0.0 || !Box2::around(corners.map(DVec3::truncate)).meets(keep) {
-                continue;
+            let [a, b, c] = t.map(|v| sides[v as usize]);
+            if a & b & c & !USED == 0 {
+                t.iter().for_each(|&v| sides[v as usize] |= USED);
+                kept.push(*t);
+            } else {
+                area.add(0.5 * double_area(t.map(|v| points[v as usize])).abs());
             }
-            t.iter().for_each(|&v| rank[v as usize] = 0);
-            kept.push(if double_area > 0.0 { *t } else { [t[0], t[2], t[1]] });
         }
-        let mut order: Vec<u32> = (0..points.len() as u32).filter(|&v| rank[v as usize] == 0).collect();
+        let mut order: Vec<u32> = (0..points.len() as u32).filter(|&v| sides[v as usize] & USED != 0).collect();
         hilbert::sort(&points, &mut order);
+        let mut rank = vec![NONE; points.len()];
         let mut vertices: Vec<DVec3> = Vec::with_capacity(order.len());
         for v in order {
             let p = points[v as usize];
@@ -55,10 +58,20 @@ impl Fabric {
         for t in &mut kept {
             *t = t.map(|v| rank[v as usize]);
         }
-        let triangles = by_key(vertices.len(), &kept, |t| t[0].min(t[1]).min(t[2]));
+        let mut triangles = by_key(vertices.len(), &kept, |t| t[0].min(t[1]).min(t[2]));
+        // Looked at only now, when triangles that follow each other have their corners near each other in memory.
+        triangles.retain_mut(|t| {
+            let double_area = double_area(t.map(|v| vertices[v as usize]));
+            area.add(0.5 * double_area.abs());
+            if double_area < 0.0 {
+                t.swap(1, 2);
+            }
+            double_area != 0.0
+        });
         Self { vertices, triangles, area: area.value() }
     }
 
+    #[inline]
     pub(super) fn corners(&self, t: u32) -> [DVec3; 3] {
         self.triangles[t as usize].map(|v| self.vertices[v as usize])
     }
@@ -68,12 +81,14 @@ impl Fabric {
         Box2::around(self.vertices.iter().map(|v| v.truncate()))
     }
 
+    #[inline]
     pub(super) fn bounds(&self, t: u32) -> Box2 {
         Box2::around(self.corners(t).map(DVec3::truncate))
     }
 }
 
 /// Twice the plan area, positive counter-clockwise.
+#[inline]
 pub(super) fn double_area([a, b, c]: [DVec3; 3]) -> f64 {
     (b - a).truncate().perp_dot((c - a).truncate())
 }

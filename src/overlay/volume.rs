@@ -245,8 +245,9 @@ fn common_frame(design: &Terrain, existing: &Terrain) -> Frame {
 
 /// The box of the vertices in use, in `frame`.
 fn shifted_box(mesh: &Terrain, frame: Frame) -> Box2 {
-    let used = mesh.triangles.as_flattened().iter().map(|&v| mesh.vertices[v as usize].truncate());
-    let b = Box2::around(used);
+    let mut used = vec![false; mesh.vertices.len()];
+    mesh.triangles.as_flattened().iter().for_each(|&v| used[v as usize] = true);
+    let b = Box2::around(mesh.vertices.iter().zip(used).filter(|(_, used)| *used).map(|(v, _)| v.truncate()));
     let shift = mesh.frame.origin() - frame.origin();
     Box2 { lo: b.lo + shift, hi: b.hi + shift }
 }

@@ -4,8 +4,6 @@ use super::build::{BuildJob, Product};
 use super::watch::Stopwatch;
 use super::{Error, Wishes, check_steepness, figures, ground};
 use crate::ground::{Options, Site};
-use crate::kernel::sum::Sum;
-use crate::mesh::volume::plan_area;
 use crate::model::{Design, Extent, Line, Sheet, Side, Terrain};
 use crate::read::Source;
 use crate::read::terrain::TerrainOptions;
@@ -40,7 +38,7 @@ pub(super) fn build(
     let mut site = Site::new(line, terrain, &ground_source.label);
     let designs = designs(&job.wishes, &mut site, line, &source.label, watch)?;
     let options = Options { allow_open: input.allow_open, finished: !job.finished.is_empty(), stations: job.stations };
-    let (terrain, area) = terrain_figures(site.terrain());
+    let (terrain, area) = (terrain_figures(site.terrain()), site.area());
     let built = site.build(&designs, &options, watch).map_err(|cause| Error::Ground {
         label: source.label.clone(),
         ground: ground_source.label.clone(),
@@ -77,16 +75,14 @@ fn designs(all: &[Wishes], site: &mut Site<'_>, line: &Line, label: &str, watch:
     Ok(designs)
 }
 
-/// Figures of the ground as given, and its plan area.
-fn terrain_figures(terrain: &Terrain) -> (TerrainFigures, f64) {
+/// Figures of the ground as given.
+fn terrain_figures(terrain: &Terrain) -> TerrainFigures {
     let heights = terrain.vertices.iter().map(|v| v.z);
-    let figures = TerrainFigures {
+    TerrainFigures {
         vertices: terrain.vertices.len(),
         triangles: terrain.triangles.len(),
         triangles_used: 0,
         z_min: heights.clone().fold(f64::INFINITY, f64::min),
         z_max: heights.fold(f64::NEG_INFINITY, f64::max),
-    };
-    let area = (0..terrain.triangles.len()).map(|t| plan_area(terrain.corners(t))).collect::<Sum>().value();
-    (figures, area)
+    }
 }

@@ -226,6 +226,24 @@ pub struct Surface {
 /// # Errors
 /// See [`SurfaceError`]; a surface whose certificate fails is an error, never a result.
 pub fn build(line: &Line, design: &Design, reference: Option<f64>, watch: &dyn Watch) -> Result<Surface, SurfaceError> {
+    made(line, design, Some(&Plane { reference }), watch)
+}
+
+/// The same surface with its certificate, but without line work, areas and volumes: for those who cut it first.
+///
+/// # Errors
+/// As [`build`].
+pub fn build_uncut(line: &Line, design: &Design, watch: &dyn Watch) -> Result<Surface, SurfaceError> {
+    made(line, design, None, watch)
+}
+
+/// The plane for volumes, where one was given.
+struct Plane {
+    reference: Option<f64>,
+}
+
+/// Builds the surface; line work and figures of the whole only with a plane.
+fn made(line: &Line, design: &Design, plane: Option<&Plane>, watch: &dyn Watch) -> Result<Surface, SurfaceError> {
     let k = design.slope.ratio();
     let go_on = |stage| {
         watch.stage(stage);
@@ -265,12 +283,15 @@ pub fn build(line: &Line, design: &Design, reference: Option<f64>, watch: &dyn W
     let heights: Vec<f64> = levels.heights.iter().map(|c| network.sign * c).collect();
     let (certificate, lines) = rayon::join(
         || certificate::measure(line, design, &sheet, &body, &edges, &solved.closure),
-        || curves::lines(line, &heights, &body.tin, &marks, &edges.open()),
+        || plane.map_or_else(Vec::new, |_| curves::lines(line, &heights, &body.tin, &marks, &edges.open())),
     );
     let certificate = certificate?;
-    go_on("volumes")?;
-    let areas = body.areas();
-    let volumes = body.volumes(line, design, reference, &ends, network.simplified_max, cut.chord);
+    let (areas, volumes) = if let Some(&Plane { reference }) = plane {
+        go_on("volumes")?;
+        (body.areas(), body.volumes(line, design, reference, &ends, network.simplified_max, cut.chord))
+    } else {
+        Default::default()
+    };
     let mut notes = flats.notes;
     notes.extend(buried.below_note(design));
     Ok(Surface {

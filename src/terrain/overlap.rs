@@ -16,6 +16,9 @@ const UNITS: [(f64, &str); 4] = [
 /// Step of false eastings that carry a zone or a district number in front.
 const ZONE: f64 = 1e6;
 
+/// Triangles whose box is taken before it is compared with that of the line.
+const CHUNK: usize = 4096;
+
 #[derive(Clone, Copy)]
 struct Box {
     lo: DVec2,
@@ -62,10 +65,15 @@ impl Box {
 /// front of the easting.
 pub fn check_overlap(terrain: &Terrain, ground: &str, line: &Line, label: &str) -> Result<(), Defects> {
     let world = |v: u32| terrain.frame.to_world(at(&terrain.vertices, v));
-    let field = Box::of(terrain.triangles.as_flattened().iter().map(|&v| world(v).truncate()));
     let road = Box::of(line.chains.iter().flat_map(|chain| &chain.vertices).map(|v| v.truncate()));
-    if road.meets(&field) {
-        return Ok(());
+    let mut field = Box::of(std::iter::empty());
+    // The box only grows, so that the first part of the ground which meets the line decides.
+    for some in terrain.triangles.chunks(CHUNK) {
+        let of_some = Box::of(some.as_flattened().iter().map(|&v| world(v).truncate()));
+        field = Box { lo: field.lo.min(of_some.lo), hi: field.hi.max(of_some.hi) };
+        if road.meets(&field) {
+            return Ok(());
+        }
     }
     let heights = || {
         let corners = terrain.triangles.as_flattened().iter();
