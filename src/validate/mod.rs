@@ -11,8 +11,9 @@ pub use place::Locator;
 pub use steep::check_steepness;
 pub use vertices::no_data_markers;
 
-use crate::model::{Defects, Line, Note};
+use crate::model::{Chain, Defects, Line, Note, Role};
 use crate::read::RawInput;
+use std::collections::BTreeMap;
 
 /// Vertices closer than this in plan and in height are one vertex, in the input's length unit. Surveyed coordinates are given
 /// to 1e-3 or 1e-4; a tenth of a micrometre is what is left of sums and conversions at coordinates of 1e7.
@@ -50,11 +51,37 @@ pub fn check(raw: &RawInput, options: &Options) -> Result<Checked, Defects> {
     let mut defects = Defects::default();
     let mut notes = Vec::new();
     degrees::check(raw, &mut defects, &mut notes);
-    let line = vertices::lines(raw, *options, &mut defects, &mut notes);
-    rings::check(&raw.source.label, &line.chains, &mut defects);
+    let mut line = vertices::lines(raw, *options, &mut defects, &mut notes);
+    let nested = rings::check(&raw.source.label, &line.chains, &mut defects);
     defects.into_result()?;
+    even_odd(&mut line.chains, &nested, &mut notes);
     // Without defects every raw line has become a chain or a breakline.
     Ok(Checked { line, notes })
+}
+
+/// Makes holes of rings that lie inside an odd number of others, and the other way round: `nested` as told by [`rings::check`].
+fn even_odd(chains: &mut [Chain], nested: &[(usize, usize)], notes: &mut Vec<Note>) {
+    let polygon = |chain: &Chain| match chain.role {
+        Role::Outer { polygon } | Role::Hole { polygon } => polygon,
+        Role::Open => 0,
+    };
+    let around: BTreeMap<usize, usize> = nested.iter().copied().collect();
+    let free = chains.iter().map(polygon).max().unwrap_or(0) + 1;
+    for i in 0..chains.len() {
+        match (chains[i].role, around.get(&i)) {
+            (Role::Outer { .. }, Some(&outer)) => {
+                let (inner, outer_name) = (&chains[i].name, &chains[outer].name);
+                notes.push(Note::new(
+                    "ring-inside-ring",
+                    format!("ring `{inner}` lies inside ring `{outer_name}`: it bounds a hole in it"),
+                ));
+                chains[i].role = Role::Hole { polygon: polygon(&chains[outer]) };
+            }
+            // A hole of a ring that is a hole itself bounds an island.
+            (Role::Hole { .. }, None) => chains[i].role = Role::Outer { polygon: free + i as u32 },
+            _ => {}
+        }
+    }
 }
 
 /// Checks the rings of a line that was changed after [`check`].

@@ -32,12 +32,14 @@ struct Rings<'a> {
     segments: Vec<Segment>,
 }
 
-/// Checks the rings among the chains.
-pub(super) fn check(label: &str, chains: &[Chain], defects: &mut Defects) {
+/// Checks the rings among the chains. The result names, by number of chain, rings that lie inside an odd number of others, each with
+/// the innermost ring around it; nothing while there are defects.
+pub(super) fn check(label: &str, chains: &[Chain], defects: &mut Defects) -> Vec<(usize, usize)> {
     let all = Locator::of_chains(label, chains);
+    let numbers: Vec<usize> = (0..chains.len()).filter(|&i| chains[i].closed()).collect();
     let (chains, locators): (Vec<_>, Vec<_>) = chains.iter().zip(all).filter(|(chain, _)| chain.closed()).unzip();
     if chains.is_empty() {
-        return;
+        return Vec::new();
     }
     let segments = chains.iter().enumerate().flat_map(|(ring, chain)| {
         (0..chain.segment_count()).map(move |index| {
@@ -72,12 +74,21 @@ pub(super) fn check(label: &str, chains: &[Chain], defects: &mut Defects) {
     });
     if found > 0 {
         // Sides and insides mean nothing while rings cross.
-        return;
+        return Vec::new();
     }
     for (&(a, b), contacts) in &contacts {
         rings.judge_contacts(a, b, contacts, defects);
     }
     rings.holes(&tree, &contacts, defects);
+    if !defects.is_empty() {
+        return Vec::new();
+    }
+    let within = rings.within(&tree, &contacts);
+    let depth = |ring: usize| within[ring].len();
+    let odd = (0..within.len()).filter(|&ring| depth(ring) % 2 == 1);
+    odd.filter_map(|ring| Some((ring, *within[ring].iter().max_by_key(|&&around| depth(around))?)))
+        .map(|(ring, around)| (numbers[ring], numbers[around]))
+        .collect()
 }
 
 impl Rings<'_> {
@@ -189,6 +200,38 @@ impl Rings<'_> {
                 });
             }
         }
+    }
+
+    /// For each ring those it lies inside of.
+    fn within(&self, tree: &SegmentTree, contacts: &BTreeMap<(usize, usize), Contacts>) -> Vec<Vec<usize>> {
+        let touch = |a: usize, b: usize| contacts.contains_key(&(a.min(b), a.max(b)));
+        let mut within: Vec<Vec<usize>> = Vec::with_capacity(self.chains.len());
+        for (ring, chain) in self.chains.iter().enumerate() {
+            let p = chain.vertices[0].truncate();
+            let mut odd: BTreeMap<usize, bool> = BTreeMap::new();
+            tree.ray(p, |i| {
+                let s = self.segments[i];
+                if s.ring != ring && (s.a.y > p.y) != (s.b.y > p.y) {
+                    *odd.entry(s.ring).or_default() ^= (orient(s.a, s.b, p) > 0.0) == (s.b.y > s.a.y);
+                }
+            });
+            within.push(odd.into_iter().filter(|&(around, odd)| odd && !touch(ring, around)).map(|(around, _)| around).collect());
+        }
+        for &(a, b) in contacts.keys() {
+            for (ring, around) in [(a, b), (b, a)] {
+                if self.clear_of(ring, around).is_some_and(|p| self.contains(tree, around, p)) {
+                    within[ring].push(around);
+                }
+            }
+        }
+        within
+    }
+
+    /// A place on a ring that does not lie on another, which it touches: a vertex, or else the middle of a side.
+    fn clear_of(&self, ring: usize, other: usize) -> Option<DVec2> {
+        let of = |ring: usize| self.segments.iter().filter(move |s| s.ring == ring);
+        let on = |p: DVec2| of(other).any(|s| meeting(s.a, s.b, p, p) != Meeting::Apart);
+        of(ring).map(|s| s.a).find(|&p| !on(p)).or_else(|| of(ring).map(|s| 0.5 * (s.a + s.b)).find(|&p| !on(p)))
     }
 
     /// Whether `p`, not on the ring, lies inside it: an odd number of segments crosses the ray towards +x.

@@ -93,6 +93,23 @@ fn holes_lie_inside() {
     }
 }
 
+/// Rings inside an odd number of others, with the innermost around each.
+#[test]
+fn rings_inside_rings_are_told() {
+    let told = |chains: &[Chain]| check("a.geojson", chains, &mut Defects::default());
+    let square = |name: &str, polygon: u32, lo: f64, hi: f64| outer(name, polygon, &[(lo, lo), (hi, lo), (hi, hi), (lo, hi)]);
+    let (a, b, c) = (square("a", 0, 0., 10.), square("b", 1, 2., 8.), square("c", 2, 3., 7.));
+    assert_eq!(told(&[a.clone(), b.clone(), c.clone()]), [(1, 0)]);
+    assert_eq!(told(&[c.clone(), a.clone(), b.clone()]), [(2, 1)]);
+    assert_eq!(told(&[c, a.clone(), b, square("d", 3, 4., 5.)]), [(2, 1), (3, 0)]);
+    // Touching along a side, in all corners, and from outside.
+    assert_eq!(told(&[a.clone(), outer("b", 1, &[(2., 0.), (8., 0.), (5., 8.)])]), [(1, 0)]);
+    assert_eq!(told(&[a.clone(), outer("b", 1, &[(5., 0.), (10., 5.), (5., 10.), (0., 5.)])]), [(1, 0)]);
+    assert_eq!(told(&[a.clone(), outer("b", 1, &[(10., 0.), (20., 0.), (20., 10.), (10., 10.)])]), []);
+    let open = Chain { role: Role::Open, ..square("open", 9, -5., -1.) };
+    assert_eq!(told(&[open, a, ring("a", Role::Hole { polygon: 0 }, &[(2., 2.), (8., 2.), (5., 8.)])]), [(2, 1)]);
+}
+
 /// The tree must find what comparing every pair finds.
 #[test]
 fn agrees_with_comparing_every_pair() {
