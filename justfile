@@ -35,7 +35,7 @@ bench:
 # The pictures of the README, from fixtures
 picture:
     mkdir -p out
-    cargo run --release -- build fixtures/road.geojson --slope 1:1.5 -o out/road.obj --lines out/road_lines.geojson
-    cargo run --release -- build fixtures/pad.geojson --slope 1:2 --to-elevation 405 -o out/pad.obj --lines out/pad_lines.geojson
-    cargo run --release --example picture -- out/road.obj docs/road.png --lines out/road_lines.geojson
-    cargo run --release --example picture -- out/pad.obj docs/pad.png --lines out/pad_lines.geojson --width 800
+    cargo run --release -- build fixtures/hill_road.geojson --width 7 --terrain fixtures/ground.obj --cut-slope 1:1 --fill-slope 1:1.5 -o out/road.obj --finished out/road_ground.obj --lines out/road_lines.geojson
+    cargo run --release -- build fixtures/hill_pad.geojson --slope 1:1.5 --terrain fixtures/ground.obj -o out/pad.obj --finished out/pad_ground.obj --lines out/pad_lines.geojson
+    cargo run --release --example picture -- out/road_ground.obj docs/hill_road.png --lines out/road_lines.geojson --crop 14 --contours 1 --azimuth 350 --tilt 54
+    cargo run --release --example picture -- out/pad_ground.obj docs/hill_pad.png --lines out/pad_lines.geojson --crop 6 --contours 1 --azimuth 352 --tilt 46 --width 800

@@ -1,10 +1,13 @@
 //! Draws a mesh written by slopegen, with its line work, as a PNG: an oblique view in parallel projection.
 //!
 //! ```sh
-//! cargo run --release --example picture -- road.obj road.png --lines road_lines.geojson
+//! cargo run --release --example picture -- finished.obj road.png --lines road_lines.geojson --crop 12 --contours 1
 //! ```
 //! Options: `--azimuth A` compass bearing of the view in degrees (45 looks to the north-east), `--tilt T` angle of the view
-//! below the horizontal, `--width W` pixels.
+//! below the horizontal, `--width W` pixels, `--crop M` show the works and M length units of ground around them, `--contours DZ`
+//! contours of the ground, and of the level curves those that fit between them.
+//!
+//! Platforms are grey, cut slopes brown, fill slopes yellow, ground green; the line where slopes meet the ground is drawn thick.
 
 use glam::{DVec2, DVec3};
 use std::error::Error;
@@ -20,6 +23,8 @@ const LIGHT: DVec3 = DVec3::new(-0.58, -0.42, 0.70);
 const SHADE: f64 = 0.58;
 /// Tints from the lowest to the highest point: few enough to keep the file small, too many to be seen.
 const TINTS: f64 = 96.0;
+/// Level curves this near to a contour, in length units, are it.
+const ON_CONTOUR: f64 = 1e-6;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 type Colour = [f64; 3];
@@ -31,57 +36,98 @@ struct Mesh {
     triangles: Vec<([usize; 3], usize)>,
 }
 
+/// Kind of the contours of the ground.
+const CONTOUR: &str = "contour";
+
 /// Parts in the order of [`palette`].
 const PARTS: [&str; 4] = ["platform", "fill_slope", "cut_slope", "ground"];
+/// Number of the ground among them.
+const GROUND: usize = 3;
 
 /// Colours at the foot and at the top of a part.
 fn palette(part: usize) -> [Colour; 2] {
     [
-        [[0.80, 0.81, 0.83], [0.86, 0.87, 0.88]],
-        [[0.54, 0.65, 0.42], [0.95, 0.86, 0.62]],
-        [[0.62, 0.29, 0.22], [0.93, 0.70, 0.55]],
-        [[0.86, 0.83, 0.75], [0.93, 0.91, 0.85]],
+        [[0.80, 0.81, 0.84], [0.84, 0.85, 0.87]],
+        [[0.84, 0.68, 0.36], [0.96, 0.84, 0.56]],
+        [[0.66, 0.38, 0.27], [0.82, 0.54, 0.41]],
+        [[0.70, 0.76, 0.62], [0.87, 0.90, 0.80]],
     ][part]
 }
 
 /// Colour, half width in pixels and depth rank of a kind of line; `None`: not drawn.
 fn pen(kind: &str) -> Option<(Colour, f64, f64)> {
     match kind {
-        "level_curve" => Some(([0.24, 0.25, 0.16], 0.34, 1.0)),
+        CONTOUR => Some(([0.45, 0.52, 0.38], 0.30, 1.0)),
+        "level_curve" => Some(([0.24, 0.22, 0.16], 0.34, 1.0)),
+        "breakline" => Some(([0.45, 0.46, 0.50], 0.5, 2.0)),
         "ridge" | "valley" => Some(([0.16, 0.16, 0.14], 0.55, 2.0)),
         "boundary" => Some(([0.30, 0.31, 0.24], 0.55, 2.0)),
         "hinge" => Some(([0.10, 0.11, 0.13], 1.1, 3.0)),
+        "daylight" => Some(([0.05, 0.20, 0.10], 1.0, 3.0)),
+        "zero" => Some(([0.05, 0.20, 0.10], 0.6, 3.0)),
         _ => None,
     }
 }
 
+/// What is to be seen.
+struct Wish {
+    width: f64,
+    azimuth: f64,
+    tilt: f64,
+    crop: Option<f64>,
+}
+
 fn main() -> Result<()> {
     let mut args = std::env::args().skip(1);
-    let (mut files, mut lines, mut width, mut azimuth, mut tilt) = (Vec::new(), None, 1200.0, 325.0, 48.0);
+    let (mut files, mut lines, mut contours) = (Vec::new(), None, None);
+    let mut wish = Wish { width: 1200.0, azimuth: 325.0, tilt: 48.0, crop: None };
     while let Some(arg) = args.next() {
         let mut value = || args.next().ok_or_else(|| format!("{arg} needs a value"));
         match arg.as_str() {
             "--lines" => lines = Some(value()?),
-            "--width" => width = value()?.parse()?,
-            "--azimuth" => azimuth = value()?.parse()?,
-            "--tilt" => tilt = value()?.parse()?,
+            "--width" => wish.width = value()?.parse()?,
+            "--azimuth" => wish.azimuth = value()?.parse()?,
+            "--tilt" => wish.tilt = value()?.parse()?,
+            "--crop" => wish.crop = Some(value()?.parse()?),
+            "--contours" => contours = Some(value()?.parse::<f64>()?).filter(|dz| *dz > 0.0),
             _ => files.push(arg),
         }
     }
     let [mesh, png] = &files[..] else { return Err("usage: picture MESH.obj OUT.png [--lines LINES.geojson]".into()) };
     let mesh = read_obj(&std::fs::read_to_string(mesh)?)?;
-    let lines = lines.map(|path| read_lines(&std::fs::read_to_string(path)?)).transpose()?.unwrap_or_default();
-    let view = View::new(&mesh, azimuth, tilt, width)?;
+    let mut lines = lines.map(|path| read_lines(&std::fs::read_to_string(path)?)).transpose()?.unwrap_or_default();
+    if let Some(dz) = contours {
+        let fits = |points: &[DVec3]| points.iter().all(|p| (p.z / dz - (p.z / dz).round()).abs() * dz < ON_CONTOUR);
+        lines.retain(|(kind, points)| kind != "level_curve" || fits(points));
+        lines.extend(contours_of_ground(&mesh, dz));
+    }
+    let view = View::new(&mesh, &wish)?;
     let mut canvas = Canvas::new(view.size);
     draw_mesh(&mut canvas, &view, &mesh);
-    for (kind, points) in &lines {
-        if let Some((colour, half, rank)) = pen(kind) {
-            let seen: Vec<DVec3> = points.iter().map(|&p| view.place(p)).collect();
-            seen.windows(2)
-                .for_each(|w| canvas.stroke(w[0], w[1], half * FINE as f64 * width / 1200.0, rank * view.lift, colour));
-        }
+    // What is thick goes over what is thin.
+    let mut pens: Vec<_> = lines.iter().filter_map(|(kind, points)| Some((pen(kind)?, points))).collect();
+    pens.sort_by(|(p, _), (q, _)| p.1.total_cmp(&q.1));
+    for ((colour, half, rank), points) in pens {
+        let seen: Vec<DVec3> = points.iter().map(|&p| view.place(p)).collect();
+        seen.windows(2)
+            .for_each(|w| canvas.stroke(w[0], w[1], half * FINE as f64 * wish.width / 1200.0, rank * view.lift, colour));
     }
     canvas.save(png)
+}
+
+/// Where the triangles of the ground pass the multiples of `dz`, triangle by triangle.
+fn contours_of_ground(mesh: &Mesh, dz: f64) -> Vec<(String, Vec<DVec3>)> {
+    let mut found = Vec::new();
+    for (t, _) in mesh.triangles.iter().filter(|(_, part)| *part == GROUND) {
+        let p = t.map(|i| mesh.points[i]);
+        let (low, high) = (p[0].z.min(p[1].z).min(p[2].z), p[0].z.max(p[1].z).max(p[2].z));
+        for n in (low / dz).ceil() as i64..=(high / dz).floor() as i64 {
+            let z = n as f64 * dz;
+            let passes = (0..3).map(|i| (p[i], p[(i + 1) % 3])).filter(|(a, b)| (a.z < z) != (b.z < z));
+            found.push((CONTOUR.to_owned(), passes.map(|(a, b)| a.lerp(b, (z - a.z) / (b.z - a.z))).collect()));
+        }
+    }
+    found
 }
 
 /// Reads vertices, groups and triangles of an OBJ file; other lines are passed over.
@@ -140,22 +186,25 @@ struct View {
 }
 
 impl View {
-    fn new(mesh: &Mesh, azimuth: f64, tilt: f64, width: f64) -> Result<Self> {
-        let (sin, cos) = azimuth.to_radians().sin_cos();
-        let (dip, level) = tilt.to_radians().sin_cos();
+    fn new(mesh: &Mesh, wish: &Wish) -> Result<Self> {
+        let (sin, cos) = wish.azimuth.to_radians().sin_cos();
+        let (dip, level) = wish.tilt.to_radians().sin_cos();
         let ahead = DVec3::new(sin, cos, 0.0);
         let (right, into, up) = (DVec3::new(cos, -sin, 0.0), level * ahead - dip * DVec3::Z, dip * ahead + level * DVec3::Z);
         let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let mut heights = [f64::INFINITY, f64::NEG_INFINITY];
-        for &(t, _) in &mesh.triangles {
+        for &(t, _) in mesh.triangles.iter().filter(|(_, part)| wish.crop.is_none() || *part != GROUND) {
             for p in t.map(|i| mesh.points[i]) {
                 let q = DVec3::new(right.dot(p), -up.dot(p), into.dot(p));
                 (lo, hi) = (lo.min(q), hi.max(q));
                 heights = [heights[0].min(p.z), heights[1].max(p.z)];
             }
         }
-        let fine = width * FINE as f64;
-        let margin = MARGIN * fine;
+        let fine = wish.width * FINE as f64;
+        // Cropped, the picture is filled to its edges; a length on the ground is seen shortened up the picture.
+        let (margin, around) = if let Some(m) = wish.crop { (0.0, m) } else { (MARGIN * fine, 0.0) };
+        let around = around * DVec3::new(1.0, dip, 0.0);
+        (lo, hi) = (lo - around, hi + around);
         let scale = (fine - 2.0 * margin) / (hi.x - lo.x);
         let height = (hi.y - lo.y) * scale + 2.0 * margin;
         let fits = |v: f64| v.is_finite() && v >= FINE as f64 && v < 1e5;

@@ -334,18 +334,21 @@ fn tolerances_are_those_of_the_source() {
     assert!(checked > 12, "only {checked} tolerances were found: the search is broken");
 }
 
-/// The value of `1 − 10⁻⁹`, `0.115 rad`, `1e-6`.
+/// The value of `1 − 10⁻⁹`, `2·10⁻⁸`, `0.115 rad`, `1e-6`.
 fn sum_of(text: &str) -> f64 {
-    let term = |text: &str| -> f64 {
+    let factor = |text: &str| -> f64 {
         let text = text.trim().trim_end_matches(" rad");
         let digit = |c: char| {
             "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|s| s == c).map_or(if c == '⁻' { '-' } else { c }, |d| (b'0' + d as u8) as char)
         };
         match text.strip_prefix("10") {
-            Some(power) if !power.is_empty() => format!("1e{}", power.chars().map(digit).collect::<String>()).parse().unwrap(),
+            Some(power) if !power.is_empty() && !power.starts_with('.') => {
+                format!("1e{}", power.chars().map(digit).collect::<String>()).parse().unwrap()
+            }
             _ => text.parse().unwrap_or_else(|e| panic!("`{text}`: {e}")),
         }
     };
+    let term = |text: &str| text.split('·').map(factor).product::<f64>();
     let mut terms = text.split(" − ").map(term);
     let first = terms.next().unwrap();
     terms.fold(first, |sum, term| sum - term)

@@ -50,7 +50,8 @@ pub(super) struct BuildArgs {
     pub(super) side: Option<SideArg>,
     /// End the slopes at elevation Z
     ///
-    /// Without an end, slopes go 10 length units beyond the lowest vertex (the highest, for slopes that rise).
+    /// Without an end, slopes go to the ground; without --terrain 10 length units beyond the lowest vertex (the highest, for
+    /// slopes that rise).
     #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = help::SURFACE)]
     pub(super) to_elevation: Option<String>,
     /// End the slopes H below (above) where they leave the line
@@ -65,13 +66,13 @@ pub(super) struct BuildArgs {
     /// Greatest height error of the whole mesh
     #[arg(long, value_name = "T", default_value = "0.01", allow_negative_numbers = true, help_heading = help::SURFACE)]
     pub(super) tolerance: String,
-    /// Take volumes against the plane at elevation Z [default: where the slopes end]
+    /// Take volumes against the plane at elevation Z [default: where the slopes end]; not with --terrain
     #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = help::SURFACE)]
     pub(super) reference: Option<String>,
     /// Existing ground: .obj, .ply, .csv, .xyz, .txt or .asc; slopes then end where they meet it
     #[arg(long, value_name = "FILE", help_heading = help::INPUT)]
     pub(super) terrain: Option<PathBuf>,
-    /// Accept slopes that end without meeting the ground
+    /// Accept slopes that end without meeting the ground, and platforms partly beside it
     #[arg(long, help_heading = help::SURFACE)]
     pub(super) allow_open: bool,
     /// Write the whole ground with the works in it: .obj or .ply
@@ -98,7 +99,7 @@ pub(super) struct BuildArgs {
     /// Write the report; .json or .txt, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
-    /// Write level curves, creases, hinge and boundary; .geojson, may be repeated
+    /// Write level curves, creases, hinge, daylight line and boundary; .geojson, may be repeated
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) lines: Vec<OsString>,
 

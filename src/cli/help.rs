@@ -20,6 +20,10 @@ All lengths are in the unit of the input, which must be projected. `slopegen bui
 
 pub(super) const AFTER_BUILD: &str = "\
 Examples:
+  slopegen build road.geojson --width 7 --terrain ground.obj --cut-slope 1:1 --fill-slope 1:1.5 --finished finished.obj
+      cuttings and embankments of a road on existing ground: the works, volumes, and the whole ground with the works in it
+  slopegen build pad.geojson --slope 1:2 --terrain ground.ply --stations 20 --swell 25% --shrink 10% --report pad.json
+      the same for a building pad, with figures along its edge and the change in volume of the soil
   slopegen build road.geojson --slope 1:1.5
       embankment on both sides of a road, 10 below its lowest vertex: road.obj, report on standard output
   slopegen build road.geojson --slope 1:1.5 --width 8 --crossfall 2.5%

@@ -133,7 +133,7 @@ impl<'a> Site<'a> {
             what: "its slopes do not have the points of the line in common".to_owned(),
         })?;
         let patch = self.patch(&shape, whole);
-        let notes = inspected(&patch, &self.terrain, self.label)?;
+        let mut notes = inspected(&patch, &self.terrain, self.label)?;
         let stations = Stations::new(self.axes(), options.stations)?;
         let mut feeder = Feeder::new(&shape, &stations);
         let mut works = Flood::run(&shape, &patch, whole, &mut feeder);
@@ -142,6 +142,7 @@ impl<'a> Site<'a> {
         check_open(&shape, &works, &designs, options)?;
         go_on("daylight")?;
         let mut nodes = Nodes::new(&shape, &patch, &works);
+        notes.extend(standing(&shape, &works));
         let assemble = |works: &Works, nodes: &Nodes| {
             let cut = |what| move |cause| GroundError::Cut { what, cause };
             let trimmed = Trimmed::new(&shape, &patch, works, nodes, whole).map_err(cut("the design"))?;
@@ -171,7 +172,7 @@ impl<'a> Site<'a> {
         match assemble(&works, &nodes) {
             Err(GroundError::Cut { .. } | GroundError::Unsound { .. }) => {
                 nodes.snap(&shape, &patch, &mut works);
-                assemble(&works, &nodes)
+                assemble(&works, &nodes).map_err(|error| open_mesh(error, &shape, &works))
             }
             built => built,
         }
@@ -351,6 +352,33 @@ fn check_open(shape: &Shape, works: &Works, designs: &[Design], options: &Option
         End::Slope => ("beside the end of the line, where slopes of one side stop", "build both sides (`--side both`)"),
     };
     Err(GroundError::Open { x: at.x, y: at.y, length: length.value(), height: worst.height, at: place, cure })
+}
+
+/// Where ends are open, the meshes cannot always be put together: that is then the reason.
+fn open_mesh(error: GroundError, shape: &Shape, works: &Works) -> GroundError {
+    match (&error, works.open.first()) {
+        (GroundError::Cut { .. } | GroundError::Unsound { .. }, Some(open)) => {
+            let at = shape.frame.to_world(open.points[0]);
+            GroundError::OpenMesh { x: at.x, y: at.y }
+        }
+        _ => error,
+    }
+}
+
+/// Notes on ends that do not meet the ground: slopes that stop short of it, and lines without a slope to it.
+fn standing(shape: &Shape, works: &Works) -> Vec<Note> {
+    let note = |code, what: &str, ends: Vec<([DVec3; 2], f64)>| {
+        let highest = ends.iter().max_by(|p, q| p.1.total_cmp(&q.1))?;
+        let length = ends.iter().map(|(p, _)| p[0].truncate().distance(p[1].truncate())).collect::<Sum>().value();
+        let at = shape.frame.to_world(highest.0[0]);
+        let height = highest.1;
+        let text = format!("{what} on a length of {length:.3}: up to {height:.3}, near ({:.3}, {:.3})", at.x, at.y);
+        Some(Note::new(code, text))
+    };
+    let open = works.open.iter().map(|o| (o.points, o.height)).collect();
+    let walls = works.borders.iter().filter(|b| cell::class(b.height) != 0).map(|b| (b.points, b.height)).collect();
+    let open = note("open-ends", "slopes end above or below the ground", open);
+    open.into_iter().chain(note("walls", "the line stands off the ground with no slope between the two", walls)).collect()
 }
 
 /// What the feeder has gathered.

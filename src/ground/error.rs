@@ -87,6 +87,17 @@ pub enum GroundError {
         /// Place.
         y: f64,
     },
+    /// The meshes could not be put together along open ends.
+    #[error(
+        "no sound mesh could be made where the works end at the edge of the ground, first near ({x:.3}, {y:.3})\n   = slopes or platform \
+         hang over that edge\n   = help: use a ground without holes that reaches beyond the works, or leave out `--finished`"
+    )]
+    OpenMesh {
+        /// Place.
+        x: f64,
+        /// Place.
+        y: f64,
+    },
     /// A triangle could not be cut.
     #[error(
         "{what} could not be cut: {cause}\n   = help: try another `--tolerance`; this is a limit of the program, please report line and ground"

@@ -4,7 +4,7 @@ use super::cell::{Corner, Label, cell, class};
 use super::nodes::Nodes;
 use super::patch::{NONE, Patch};
 use super::shape::Shape;
-use super::trimmed::Passing;
+use super::trimmed::{Passing, runs};
 use super::works::{Border, Works, clip, split_sides};
 use crate::mesh::polygon;
 use crate::mesh::region::RegionError;
@@ -27,9 +27,6 @@ struct Cut {
     /// Boundary of the works through its inside.
     borders: Vec<Border>,
 }
-
-/// A stretch of a side covered by the works: place along it and number of both ends.
-type Stretch = [(f64, u32); 2];
 
 impl Left {
     /// Takes the works out of the ground. `whole`: everything of the design counts, whatever its height.
@@ -93,7 +90,7 @@ fn remainder(
 ) -> Vec<[u32; 2]> {
     let t = patch.triangles[b as usize];
     let ends = |j: usize| [t[j], t[(j + 1) % 3]];
-    let mut stretches: [Vec<Stretch>; 3] = Default::default();
+    let mut stretches: [Vec<[u32; 2]>; 3] = Default::default();
     let mut edges = Vec::new();
     let (mut corners, mut kept) = (Vec::new(), Vec::new());
     for &a in &cut.over {
@@ -108,9 +105,8 @@ fn remainder(
         }
         for (n, corner) in kept.iter().enumerate() {
             let Some(j) = corner.side.ground else { continue };
-            let [p, q] = ends(j as usize).map(|v| patch.vertices[v as usize].truncate());
-            let mut place = |c: &Corner| ((c.at - p).dot(q - p), on_side(c, nodes, passing));
-            stretches[j as usize].push([place(corner), place(&kept[(n + 1) % kept.len()])]);
+            let next = &kept[(n + 1) % kept.len()];
+            stretches[j as usize].push([on_side(corner, nodes, passing), on_side(next, nodes, passing)]);
         }
     }
     for border in &cut.borders {
@@ -118,11 +114,11 @@ fn remainder(
             edges.extend(nodes.pieces([to, from]));
         }
     }
-    for (j, list) in stretches.iter_mut().enumerate() {
+    for (j, list) in stretches.iter().enumerate() {
         let labels = works.on_ground.get(&patch.edge(b, j as u8)).map_or(&[][..], |list| list);
         let ids = labels.iter().filter_map(|&label| nodes.meeting(label));
         let path = nodes.along(ends(j).map(|v| nodes.ground(v)), ids);
-        uncovered(list, &path, &mut edges);
+        uncovered(&runs(list, passing), &path, &mut edges);
     }
     edges
 }
@@ -137,21 +133,13 @@ fn on_side(corner: &Corner, nodes: &Nodes, passing: &mut Passing) -> u32 {
     }
 }
 
-/// The edges of `path`, a side with all its vertices, that no stretch covers.
-fn uncovered(stretches: &mut [Stretch], path: &[u32], edges: &mut Vec<[u32; 2]>) {
-    stretches.sort_by(|p, q| p[0].0.total_cmp(&q[0].0).then(p[1].0.total_cmp(&q[1].0)));
-    // Stretches follow one another by number; what is between the end of one and the start of the next is free.
+/// The edges of `path`, a side with all its vertices, that no stretch from vertex to vertex covers.
+fn uncovered(stretches: &[[u32; 2]], path: &[u32], edges: &mut Vec<[u32; 2]>) {
     let position: FxHashMap<u32, usize> = path.iter().enumerate().map(|(n, &v)| (v, n)).collect();
     let mut covered = vec![false; path.len() - 1];
-    let mut start: Option<usize> = None;
-    // A stretch that begins and ends in one vertex says nothing, and may come at any place among the others.
-    for s in stretches.iter().filter(|s| s[0].1 != s[1].1) {
-        if start.is_none() {
-            start = position.get(&s[0].1).copied();
-        }
-        if let (Some(from), Some(&to)) = (start, position.get(&s[1].1)) {
+    for [from, to] in stretches {
+        if let (Some(&from), Some(&to)) = (position.get(from), position.get(to)) {
             covered[from.min(to)..to.max(from)].iter_mut().for_each(|c| *c = true);
-            start = None;
         }
     }
     edges.extend((0..covered.len()).filter(|&n| !covered[n]).map(|n| [path[n], path[n + 1]]));
@@ -161,15 +149,13 @@ fn uncovered(stretches: &mut [Stretch], path: &[u32], edges: &mut Vec<[u32; 2]>)
 mod tests {
     use super::*;
 
-    /// A side 1–2–3–4 with the stretches 1–2 and 3–x–4, x no vertex: 2–3 is free.
     #[test]
     fn free_stretches_of_a_side() {
         let mut edges = Vec::new();
-        let mut stretches = [[(6.0, 9), (8.0, 4)], [(0.0, 1), (2.0, 2)], [(4.0, 3), (6.0, 9)], [(5.0, 3), (5.0, 3)]];
-        uncovered(&mut stretches, &[1, 2, 3, 4], &mut edges);
+        uncovered(&[[3, 4], [1, 2]], &[1, 2, 3, 4], &mut edges);
         assert_eq!(edges, [[2, 3]]);
         edges.clear();
-        uncovered(&mut [], &[1, 2, 3, 4], &mut edges);
+        uncovered(&[], &[1, 2, 3, 4], &mut edges);
         assert_eq!(edges, [[1, 2], [2, 3], [3, 4]]);
     }
 }

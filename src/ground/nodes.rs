@@ -79,6 +79,7 @@ impl Nodes {
     /// Where design and ground all but touch, rounding can carry a vertex across an edge nearby, and outlines would cross.
     /// With the vertex on the edge they touch instead.
     pub(crate) fn snap(&mut self, shape: &Shape, patch: &Patch, works: &mut Works) {
+        self.open_slivers(shape, patch, works);
         let mut points: Vec<(Label, u32)> =
             works.points.keys().filter_map(|&label| Some((label, *self.of.get(&label)?))).collect();
         points.sort_unstable();
@@ -126,6 +127,32 @@ impl Nodes {
                     remember(&mut works.on_ground, edge, label);
                 }
             });
+        }
+    }
+
+    /// Puts the corner of a triangle that lies on its opposite side, but for rounding, onto that side: nothing is left of the
+    /// triangle then, and its neighbour gets the corner.
+    fn open_slivers(&mut self, shape: &Shape, patch: &Patch, works: &mut Works) {
+        let flat = |[a, b, p]: [DVec3; 3]| {
+            let (d, w) = ((b - a).truncate(), (p - a).truncate());
+            let t = w.dot(d) / d.length_squared();
+            t > 0.0 && t < 1.0 && d.perp_dot(w).abs() <= WELD * d.length()
+        };
+        for &(a, b) in &works.cells {
+            let (on_design, on_ground) = (shape.triangles[a as usize], patch.triangles[b as usize]);
+            for i in 0..3_u8 {
+                let turned = |t: [u32; 3]| [0, 1, 2].map(|n| t[(n + i as usize) % 3]);
+                let [_, _, apex] = turned(on_ground);
+                if flat(turned(on_ground).map(|v| patch.vertices[v as usize])) {
+                    self.of.insert(Label::Ground(apex), self.ground + apex);
+                    remember(&mut works.on_ground, patch.edge(b, i), Label::Ground(apex));
+                }
+                let [_, _, apex] = turned(on_design);
+                if flat(turned(on_design).map(|v| shape.vertices[v as usize])) {
+                    self.of.entry(Label::Design(apex)).or_insert(self.alias[apex as usize]);
+                    remember(&mut works.on_design, shape.edge(a, i), Label::Design(apex));
+                }
+            }
         }
     }
 

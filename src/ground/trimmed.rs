@@ -182,7 +182,7 @@ fn cut_off(part: Part, whole: bool) -> bool {
 }
 
 /// Stretches from vertex to vertex, of pieces of a side that follow one another.
-fn runs(pieces: &[[u32; 2]], passing: &Passing) -> Vec<[u32; 2]> {
+pub(crate) fn runs(pieces: &[[u32; 2]], passing: &Passing) -> Vec<[u32; 2]> {
     let pieces: Vec<[u32; 2]> = pieces.iter().copied().filter(|e| e[0] != e[1]).collect();
     let next: FxHashMap<u32, u32> = pieces.iter().map(|e| (e[0], e[1])).collect();
     let mut runs = Vec::new();

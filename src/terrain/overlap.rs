@@ -39,6 +39,15 @@ impl Box {
         other.lo.cmple(self.lo).all() && self.hi.cmple(other.hi).all()
     }
 
+    /// Distance from box to box, along the axis on which they are further apart.
+    fn gap(&self, other: &Self) -> f64 {
+        (self.lo - other.hi).max(other.lo - self.hi).max_element()
+    }
+
+    fn extent(&self) -> f64 {
+        (self.hi - self.lo).max_element()
+    }
+
     fn map(&self, of: impl Fn(DVec2) -> DVec2) -> Self {
         Self::of([of(self.lo), of(self.hi)].into_iter())
     }
@@ -88,6 +97,11 @@ fn guess(road: &Box, field: &Box, heights: impl Fn() -> (f64, f64)) -> Option<St
         return Some(
             "easting and northing of one of them seem to be exchanged: name the columns, or exchange them in the file".into(),
         );
+    }
+    // Another unit or zone would put it far away.
+    let gap = road.gap(field);
+    if gap <= road.extent().max(field.extent()) {
+        return Some(format!("the line lies {} beside the ground: use a ground that reaches beyond the works", short(gap)));
     }
     // Both feet may fit: the one that puts the whole line on the ground fits better.
     let scaled = |whole: bool| {
@@ -153,10 +167,14 @@ mod tests {
             (DVec3::new(499_950.0, 100.0, -5_400_100.0), DVec3::new(200.0, 30.0, 200.0), "export it with Z up"),
             (at(32_499_950.0, 5_399_950.0), size, "differ by 32 million: that of the ground"),
             (at(600_000.0, 5_399_950.0), size, "same reference system"),
+            (at(500_101.5, 5_400_000.0), size, "the line lies 1.5 beside the ground"),
         ] {
             let message = message(&line, corner, size).unwrap();
             assert!(message.contains(words), "{words}\n{message}");
         }
+        // Close to zero a factor moves nothing far.
+        let beside = message(&[(101.0, -10.0), (120.0, 10.0)], DVec3::new(-100.0, -100.0, 0.0), size).unwrap();
+        assert!(beside.contains("the line lies 1 beside the ground: use a ground that reaches beyond the works"), "{beside}");
         assert_eq!(
             message(&line, at(0.0, 0.0), size).unwrap(),
             "line and ground do not lie at the same place\n  --> road.csv\n   = line: x 500000 to 500100, y 5400000 to 5400050\n   \

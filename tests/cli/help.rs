@@ -78,8 +78,9 @@ fn every_warning_is_documented() {
 fn documented_examples_run() {
     let site = Site::new();
     fs::create_dir(site.path("fixtures")).unwrap();
-    for name in ["road.geojson", "pad.geojson", "pit.csv"] {
-        fs::copy(site.path(name), site.path("fixtures").join(name)).unwrap();
+    for name in ["road.geojson", "pad.geojson", "pit.csv", "hill_road.geojson", "hill_pad.geojson", "ground.obj"] {
+        let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(name);
+        fs::copy(from, site.path("fixtures").join(name)).unwrap();
     }
     let examples = DOCUMENT.split("## Examples").nth(1).unwrap().split("```").nth(1).unwrap();
     let mut count = 0;
@@ -91,8 +92,21 @@ fn documented_examples_run() {
         assert_eq!(site.run_with(command, stdin).code, 0, "{line}");
         count += 1;
     }
-    assert!(count >= 7);
-    for file in ["road.obj", "pad.ply", "pad_lines.geojson", "pad.json", "pit.obj", "cut.obj", "road.asc"] {
+    assert!(count >= 10);
+    for file in [
+        "hill_road.obj",
+        "finished.obj",
+        "yard.ply",
+        "yard.geojson",
+        "volume.json",
+        "road.obj",
+        "pad.ply",
+        "pad_lines.geojson",
+        "pad.json",
+        "pit.obj",
+        "cut.obj",
+        "road.asc",
+    ] {
         assert!(site.path(file).exists(), "{file}");
     }
 }
