@@ -119,12 +119,12 @@ impl Ring {
         let mut places = [0_u8; MOST];
         let mut changes = 0_u32;
         let mut len = 0;
-        for i in 0..self.len.min(MOST) {
+        for (i, place) in places.iter_mut().enumerate().take(self.len) {
             let (stays, comes) = (self.corners[i][K] > 0.0, self.corners[next(i)][K] > 0.0);
             out.corners[len & ROOM] = self.corners[i];
             out.edges[len & ROOM] = self.edges[i];
             len += usize::from(stays);
-            places[i] = (len & ROOM) as u8;
+            *place = (len & ROOM) as u8;
             out.edges[len & ROOM] = if stays { CUT + K as u8 } else { self.edges[i] };
             len += usize::from(stays != comes);
             changes |= u32::from(stays != comes) << i;
