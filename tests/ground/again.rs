@@ -57,7 +57,6 @@ fn the_same_works_move_nothing() {
 }
 
 #[test]
-#[ignore = "known failure: slivers of the first finished ground, the outline is open"]
 fn the_same_works_move_nothing_across_the_grid() {
     nothing_is_left(turned(), "--slope 1:1.5");
     nothing_is_left(line(), "--slope 1:1.5 --width 6 --crossfall 2.5%");
@@ -65,7 +64,6 @@ fn the_same_works_move_nothing_across_the_grid() {
 
 /// Flatter slopes through the same line cut and fill more. What both builds move adds up to what one moves: only the order differs.
 #[test]
-#[ignore = "known failure: slivers of the first finished ground, the outline is open"]
 fn flatter_slopes_afterwards() {
     for works in [pad(), turned()] {
         let [steep, more] = twice(works.clone(), "--slope 1:1.5", "--slope 1:2");
