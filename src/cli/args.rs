@@ -72,6 +72,9 @@ pub(super) struct BuildArgs {
     /// Existing ground: .obj, .ply, .csv, .xyz, .txt or .asc; slopes then end where they meet it
     #[arg(long, value_name = "FILE", help_heading = help::INPUT)]
     pub(super) terrain: Option<PathBuf>,
+    /// Columns of a ground of points without a header, such as xyz or pnezd
+    #[arg(long, value_name = "ORDER", requires = "terrain", help_heading = help::INPUT)]
+    pub(super) terrain_order: Option<String>,
     /// Accept slopes that end without meeting the ground, and platforms partly beside it
     #[arg(long, help_heading = help::SURFACE)]
     pub(super) allow_open: bool,

@@ -261,9 +261,10 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     }
 
     let extent = extent.into_iter().flatten().next();
+    let csv_order = checks.order("--terrain-order", args.terrain_order.as_ref());
     let ground = args.terrain.as_ref().map(|path| GroundInput {
         path: path.clone(),
-        options: TerrainOptions::default(),
+        options: TerrainOptions { format: None, csv_order },
         allow_open: args.allow_open,
     });
     let job = tolerance.filter(|_| !slopes.is_empty()).map(|tolerance| BuildJob {

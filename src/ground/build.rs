@@ -142,7 +142,7 @@ impl<'a> Site<'a> {
         check_open(&shape, &works, &designs, options)?;
         go_on("daylight")?;
         let mut nodes = Nodes::new(&shape, &patch, &works);
-        notes.extend(standing(&shape, &works));
+        notes.extend(standing(&shape, &works, &designs));
         let assemble = |works: &Works, nodes: &Nodes| {
             let cut = |what| move |cause| GroundError::Cut { what, cause };
             let trimmed = Trimmed::new(&shape, &patch, works, nodes, whole).map_err(cut("the design"))?;
@@ -334,10 +334,16 @@ fn inspected(patch: &Patch, terrain: &Terrain, label: &str) -> Result<Vec<Note>,
     if findings.defects.list.is_empty() { Ok(findings.notes) } else { Err(GroundError::Terrain(findings.defects)) }
 }
 
+/// Whether all slopes meet the ground, or end no further off it than the tolerance.
+pub(crate) fn met(works: &Works, designs: &[Design]) -> bool {
+    let tolerance = designs.iter().map(|design| design.tolerance).fold(f64::INFINITY, f64::min);
+    works.open.iter().all(|open| open.height <= tolerance)
+}
+
 /// Refuses slopes that end without meeting the ground.
 fn check_open(shape: &Shape, works: &Works, designs: &[Design], options: &Options) -> Result<(), GroundError> {
     let Some(worst) = works.open.iter().max_by(|p, q| p.height.total_cmp(&q.height)) else { return Ok(()) };
-    if options.allow_open {
+    if options.allow_open || met(works, designs) {
         return Ok(());
     }
     let length = works.open.iter().map(|o| o.points[0].truncate().distance(o.points[1].truncate())).collect::<Sum>();
@@ -365,8 +371,9 @@ fn open_mesh(error: GroundError, shape: &Shape, works: &Works) -> GroundError {
     }
 }
 
-/// Notes on ends that do not meet the ground: slopes that stop short of it, and lines without a slope to it.
-fn standing(shape: &Shape, works: &Works) -> Vec<Note> {
+/// Notes on ends further off the ground than the tolerance: slopes that stop short of it, and lines without a slope to it.
+fn standing(shape: &Shape, works: &Works, designs: &[Design]) -> Vec<Note> {
+    let tolerance = designs.iter().map(|design| design.tolerance).fold(f64::INFINITY, f64::min);
     let note = |code, what: &str, ends: Vec<([DVec3; 2], f64)>| {
         let highest = ends.iter().max_by(|p, q| p.1.total_cmp(&q.1))?;
         let length = ends.iter().map(|(p, _)| p[0].truncate().distance(p[1].truncate())).collect::<Sum>().value();
@@ -375,8 +382,8 @@ fn standing(shape: &Shape, works: &Works) -> Vec<Note> {
         let text = format!("{what} on a length of {length:.3}: up to {height:.3}, near ({:.3}, {:.3})", at.x, at.y);
         Some(Note::new(code, text))
     };
-    let open = works.open.iter().map(|o| (o.points, o.height)).collect();
-    let walls = works.borders.iter().filter(|b| cell::class(b.height) != 0).map(|b| (b.points, b.height)).collect();
+    let open = works.open.iter().filter(|o| o.height > tolerance).map(|o| (o.points, o.height)).collect();
+    let walls = works.borders.iter().filter(|b| b.height > tolerance).map(|b| (b.points, b.height)).collect();
     let open = note("open-ends", "slopes end above or below the ground", open);
     open.into_iter().chain(note("walls", "the line stands off the ground with no slope between the two", walls)).collect()
 }

@@ -1,6 +1,6 @@
 //! From the works to what is written: meshes, line work, figures and the certificate.
 
-use super::build::Fed;
+use super::build::{Fed, met as meets_ground};
 use super::cell::{Label, TOUCH};
 use super::finished::Left;
 use super::nodes::Nodes;
@@ -114,7 +114,7 @@ pub(crate) fn ground(found: &Found) -> Result<Ground, GroundError> {
         levels: levels(found, &lines),
         lines,
         daylight: daylight(found),
-        complete: found.works.open.is_empty(),
+        complete: meets_ground(found.works, found.designs),
         tallied: found.fed.tallied.clone(),
         sections: found.fed.sections.clone(),
         stations: found.stations.clone(),

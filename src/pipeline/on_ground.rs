@@ -5,8 +5,8 @@ use super::watch::Stopwatch;
 use super::{Error, Wishes, check_steepness, figures, ground};
 use crate::ground::{Options, Site};
 use crate::model::{Design, Extent, Line, Sheet, Side, Terrain};
-use crate::read::Source;
 use crate::read::terrain::TerrainOptions;
+use crate::read::{ReadError, Source};
 use crate::report::TerrainFigures;
 use crate::terrain;
 use std::path::PathBuf;
@@ -30,7 +30,13 @@ pub(super) fn build(
     source: &Source,
     watch: &Stopwatch<'_>,
 ) -> Result<Product, Error> {
-    let (terrain, ground_source) = ground::read_ground(&input.path, &input.options, watch)?;
+    let (terrain, ground_source) = ground::read_ground(&input.path, &input.options, watch).map_err(|error| match error {
+        // The columns of the ground have an option of their own.
+        Error::Read(ReadError::Content { what, at, figures, help }) => {
+            ReadError::Content { what, at, figures, help: help.replace("--csv-order", "--terrain-order") }.into()
+        }
+        other => other,
+    })?;
     terrain::check_overlap(&terrain, &ground_source.label, line, &source.label)?;
     for wishes in &job.wishes {
         check_steepness(line, source, wishes.slope)?;

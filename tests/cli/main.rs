@@ -3,6 +3,7 @@
 mod build;
 mod check;
 mod golden;
+mod ground;
 mod help;
 mod messages;
 mod sample;
