@@ -57,6 +57,8 @@ pub struct Options {
     pub finished: bool,
     /// Distance of stations.
     pub stations: Option<f64>,
+    /// Refuse also slopes that end off the ground by less than the tolerance.
+    pub exactly: bool,
 }
 
 impl<'a> Site<'a> {
@@ -111,7 +113,7 @@ impl<'a> Site<'a> {
         let whole = designs.iter().any(|d| d.side_of_rings == Side::Inside) && self.line.chains.iter().all(|c| c.closed());
         if !whole {
             let needed = self.as_deep_as_needed(designs, watch)?;
-            match self.attempt(&needed, whole, options, watch) {
+            match self.attempt(&needed, whole, &Options { exactly: true, ..*options }, watch) {
                 // On ground that lies in the slopes, the coarse pass may have met it too early.
                 Err(GroundError::Open { .. }) if needed != designs => {}
                 built => return built,
@@ -343,7 +345,7 @@ pub(crate) fn met(works: &Works, designs: &[Design]) -> bool {
 /// Refuses slopes that end without meeting the ground.
 fn check_open(shape: &Shape, works: &Works, designs: &[Design], options: &Options) -> Result<(), GroundError> {
     let Some(worst) = works.open.iter().max_by(|p, q| p.height.total_cmp(&q.height)) else { return Ok(()) };
-    if options.allow_open || met(works, designs) {
+    if options.allow_open || !options.exactly && met(works, designs) {
         return Ok(());
     }
     let length = works.open.iter().map(|o| o.points[0].truncate().distance(o.points[1].truncate())).collect::<Sum>();

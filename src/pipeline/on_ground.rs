@@ -43,7 +43,8 @@ pub(super) fn build(
     }
     let mut site = Site::new(line, terrain, &ground_source.label);
     let designs = designs(&job.wishes, &mut site, line, &source.label, watch)?;
-    let options = Options { allow_open: input.allow_open, finished: !job.finished.is_empty(), stations: job.stations };
+    let options =
+        Options { allow_open: input.allow_open, finished: !job.finished.is_empty(), stations: job.stations, exactly: false };
     let (terrain, area) = (terrain_figures(site.terrain()), site.area());
     let built = site.build(&designs, &options, watch).map_err(|cause| Error::Ground {
         label: source.label.clone(),
