@@ -16,12 +16,9 @@ use crate::mesh::check::{self, HalfEdges, Soundness};
 use crate::mesh::{polygon, volume};
 use crate::model::{CurveKind, Design, Line, LineFeature, Note, Part, Sheet, Terrain, Tin};
 use crate::surface::curves::{self, chained};
-use crate::surface::{Areas, Certificate, Mark, Surface};
+use crate::surface::{Areas, CONE_BOUND, Certificate, MEASURABLE_HEIGHT, Mark, STRIP_BOUND, Surface};
 use glam::DVec3;
 use rustc_hash::FxHashSet;
-
-/// Triangles lower than this (length units) are too small for an angle.
-const MEASURABLE_HEIGHT: f64 = 1e-4;
 
 /// Where the works meet the ground.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -107,7 +104,7 @@ pub(crate) fn ground(found: &Found) -> Result<Ground, GroundError> {
     let certificate = certificate(found, &design, &soundness)?;
     let lines = lines(found, &number, &design, &edges);
     let finished = found.left.map(|left| finished(found, left)).transpose()?;
-    let areas = areas(&design);
+    let areas = Areas::of(&design);
     let (error_bound, simplified) = error_bound(found, &design);
     Ok(Ground {
         finished,
@@ -162,19 +159,6 @@ impl Numbering {
     }
 }
 
-fn areas(design: &Tin) -> Areas {
-    let mut plan = Sum::default();
-    let mut parts = [Sum::default(); 4];
-    for t in 0..design.triangles.len() {
-        let [a, b, c] = design.corners(t);
-        plan.add(volume::plan_area([a, b, c]));
-        parts[design.parts[t] as usize].add(0.5 * (b - a).cross(c - a).length());
-    }
-    let of = |part: Part| parts[part as usize].value();
-    let (platform, fill_slope, cut_slope) = (of(Part::Platform), of(Part::FillSlope), of(Part::CutSlope));
-    Areas { plan: plan.value(), slope: platform + fill_slope + cut_slope, fill_slope, cut_slope, platform }
-}
-
 /// Simplifying moves the sheet by at most `simplified_max`, chords lower cones by at most a third of the tolerance.
 fn error_bound(found: &Found, design: &Tin) -> (f64, f64) {
     let moved = found.surfaces.iter().map(|s| s.simplified_max).fold(0.0, f64::max);
@@ -226,7 +210,7 @@ fn certificate(found: &Found, design: &Tin, soundness: &Soundness) -> Result<Cer
     }
     let flaw = flaw(soundness, design).or_else(|| {
         let (strip, cone) = (certificate.strip_max_deviation_deg, certificate.sector_max_deviation_deg);
-        (strip > 0.01 || cone > 0.1).then(|| format!("a slope triangle is {:.4}° off the slope", strip.max(cone)))
+        (strip > STRIP_BOUND || cone > CONE_BOUND).then(|| format!("a slope triangle is {:.4}° off the slope", strip.max(cone)))
     });
     match flaw {
         Some(what) => Err(GroundError::Unsound { mesh: "design", what }),

@@ -1,7 +1,8 @@
 //! The certificate: figures measured on the very mesh that is written.
 
+use super::SurfaceError;
+use super::body::Body;
 use super::buried::covered_ranges;
-use super::{Body, SurfaceError};
 use crate::mesh::check::{self, HalfEdges};
 use crate::model::{Design, Line, Part};
 use crate::sheet::Heights;
@@ -10,11 +11,11 @@ use crate::slope::trim::Sheet;
 use glam::DVec2;
 
 /// Triangles lower than this (length units) are too small for an angle.
-const MEASURABLE_HEIGHT: f64 = 1e-4;
+pub(crate) const MEASURABLE_HEIGHT: f64 = 1e-4;
 
 /// Bounds of the slope (degrees): in planar strips, on cones.
-const STRIP_BOUND: f64 = 0.01;
-const CONE_BOUND: f64 = 0.1;
+pub(crate) const STRIP_BOUND: f64 = 0.01;
+pub(crate) const CONE_BOUND: f64 = 0.1;
 
 /// Triangles whose heights are compared with the closed form of the given line: at their corners and centroid.
 const HEIGHT_SAMPLES: usize = 2048;

@@ -1,5 +1,6 @@
 //! The finished surface: everything about one line and one design, from the network to the certificate.
 
+mod body;
 mod buried;
 mod certificate;
 pub mod curves;
@@ -10,23 +11,23 @@ mod solve;
 
 pub use buried::Buried;
 pub use certificate::Certificate;
+pub(crate) use certificate::{CONE_BOUND, MEASURABLE_HEIGHT, STRIP_BOUND};
 pub use curves::Mark;
 pub use feet::Foot;
 
-use self::flats::Flats;
 use crate::kernel::sum::Sum;
 use crate::mesh::check::HalfEdges;
 use crate::mesh::region::RegionError;
 use crate::mesh::volume;
 use crate::model::{Design, Extent, Line, LineFeature, Note, Part, Sheet as SheetKind, Tin};
-use crate::slope::emit::{self, Slopes, Trace};
+use crate::slope::emit::{self, Slopes};
 use crate::slope::facet::Kind;
 use crate::slope::fan::Fans;
 use crate::slope::levels::{self, Levels};
 use crate::slope::network::Network;
 use crate::slope::refine::Cut;
 use crate::slope::trim::{self, Sheet};
-use glam::DVec3;
+use body::Body;
 
 /// Share of the tolerance that simplifying the line may use.
 const SIMPLIFY_SHARE: f64 = 1.0 / 3.0;
@@ -152,6 +153,22 @@ pub struct Areas {
     pub cut_slope: f64,
     /// True area of platforms and floors.
     pub platform: f64,
+}
+
+impl Areas {
+    /// The areas of a mesh, by its parts.
+    pub fn of(tin: &Tin) -> Self {
+        let mut plan = Sum::default();
+        let mut parts = [Sum::default(); 4];
+        for (t, &part) in tin.parts.iter().enumerate() {
+            let [a, b, c] = tin.corners(t);
+            plan.add(volume::plan_area([a, b, c]));
+            parts[part as usize].add(0.5 * (b - a).cross(c - a).length());
+        }
+        let of = |part: Part| parts[part as usize].value();
+        let (platform, fill_slope, cut_slope) = (of(Part::Platform), of(Part::FillSlope), of(Part::CutSlope));
+        Self { plan: plan.value(), slope: platform + fill_slope + cut_slope, fill_slope, cut_slope, platform }
+    }
 }
 
 /// Volumes against a horizontal plane.
@@ -288,7 +305,7 @@ fn made(line: &Line, design: &Design, plane: Option<&Plane>, watch: &dyn Watch) 
     let certificate = certificate?;
     let (areas, volumes) = if let Some(&Plane { reference }) = plane {
         go_on("volumes")?;
-        (body.areas(), body.volumes(line, design, reference, &ends, network.simplified_max, cut.chord))
+        (Areas::of(&body.tin), body.volumes(line, design, reference, &ends, network.simplified_max, cut.chord))
     } else {
         Default::default()
     };
@@ -382,143 +399,5 @@ impl Ends {
             return Err(SurfaceError::TooManyLevels { interval, count, least: (least / unit).ceil() * unit });
         }
         Ok(Levels::between(self.lowest, self.top, interval))
-    }
-}
-
-/// The mesh with what is known of its triangles.
-pub(crate) struct Body {
-    tin: Tin,
-    /// Whether a triangle belongs to a cone; shorter than the list of triangles, flats come last.
-    on_cone: Vec<bool>,
-    /// Mesh edges with a meaning, in mesh numbers.
-    traces: Vec<emit::Traced>,
-    /// Points of each edge of the network from end to end, in mesh numbers, with the given vertex where there is one.
-    edge_points: Vec<Vec<emit::EdgePoint>>,
-    /// Stations of roads.
-    stations: Vec<PlatformStation>,
-    /// Edges of breaklines.
-    breaks: Vec<(Mark, [u32; 2])>,
-}
-
-impl Body {
-    fn new(network: &Network, design: &Design, slopes: &Slopes, flats: &Flats) -> Self {
-        let mut number = vec![u32::MAX; slopes.points.len()];
-        for &v in slopes.triangles.as_flattened().iter().chain(flats.triangles.as_flattened()) {
-            number[v as usize] = 0;
-        }
-        let mut vertices = Vec::with_capacity(slopes.points.len());
-        for (v, id) in number.iter_mut().enumerate().filter(|(_, id)| **id == 0) {
-            *id = vertices.len() as u32;
-            let p = slopes.points[v];
-            vertices.push(DVec3::new(p.x, p.y, network.sign * p.z));
-        }
-        let renumber = |t: &[u32; 3]| t.map(|v| number[v as usize]);
-        let part = if design.sheet == SheetKind::Falling { Part::FillSlope } else { Part::CutSlope };
-        let triangles: Vec<[u32; 3]> = slopes.triangles.iter().chain(&flats.triangles).map(renumber).collect();
-        let mut parts = vec![part; slopes.triangles.len()];
-        parts.resize(triangles.len(), Part::Platform);
-        let used = |ids: &[u32]| ids.iter().all(|&v| number[v as usize] != u32::MAX);
-        let mut traces: Vec<emit::Traced> = slopes
-            .traces
-            .iter()
-            .filter(|(_, ends)| used(ends))
-            .map(|&(kind, ends)| {
-                let [a, b] = ends.map(|v| number[v as usize]);
-                (kind, [a.min(b), a.max(b)])
-            })
-            .collect();
-        traces.sort_unstable();
-        traces.dedup();
-        let edge_points: Vec<Vec<emit::EdgePoint>> = slopes
-            .edge_points
-            .iter()
-            .zip(&network.edges)
-            .map(|(inner, edge)| {
-                let end = |node: u32, given, s| emit::EdgePoint { s, id: number[node as usize], given: Some(given) };
-                let length = network.nodes[edge.a as usize].truncate().distance(network.nodes[edge.b as usize].truncate());
-                let inner = inner.iter().map(|p| emit::EdgePoint { id: number[p.id as usize], ..*p });
-                std::iter::once(end(edge.a, edge.given[0], 0.0))
-                    .chain(inner)
-                    .chain([end(edge.b, edge.given[1], length)])
-                    .collect()
-            })
-            .collect();
-        let tin = Tin { frame: network.frame, vertices, triangles, parts };
-        let on_cone = slopes.facets.iter().map(|&f| f as usize >= 2 * network.edges.len()).collect();
-        let stations = flats.stations.iter().filter(|(v, ..)| used(&[*v]));
-        let stations = stations.map(|&(v, chain, station)| PlatformStation { vertex: number[v as usize], chain, station });
-        let mut stations: Vec<PlatformStation> = stations.collect();
-        stations.sort_by_key(|s| (s.vertex, s.chain));
-        let breaks = flats.breaks.iter().filter(|(_, ends)| used(ends)).map(|&(breakline, ends)| {
-            let [a, b] = ends.map(|v| number[v as usize]);
-            (Mark::Breakline(breakline), [a.min(b), a.max(b)])
-        });
-        let breaks = breaks.collect();
-        Self { tin, on_cone, traces, edge_points, stations, breaks }
-    }
-
-    /// The traces in the words of the world.
-    fn marks(&self, network: &Network, design: &Design) -> Vec<(Mark, [u32; 2])> {
-        let mark = |trace| match trace {
-            Trace::Level(u) => Mark::Level(u),
-            Trace::Crease => feet::crease(design.sheet),
-            Trace::Hinge(e) => Mark::Hinge(network.edges[e as usize].given[0].chain),
-        };
-        let traces = self.traces.iter().map(|&(trace, ends)| (mark(trace), ends));
-        let mut marks: Vec<(Mark, [u32; 2])> = traces.chain(self.breaks.iter().copied()).collect();
-        marks.sort_unstable();
-        marks
-    }
-
-    fn areas(&self) -> Areas {
-        let mut plan = Sum::default();
-        let mut parts = [Sum::default(); 4];
-        for t in 0..self.tin.triangles.len() {
-            let corners = self.tin.corners(t);
-            plan.add(volume::plan_area(corners));
-            let [a, b, c] = corners;
-            parts[self.tin.parts[t] as usize].add(0.5 * (b - a).cross(c - a).length());
-        }
-        let of = |part: Part| parts[part as usize].value();
-        let (platform, fill_slope, cut_slope) = (of(Part::Platform), of(Part::FillSlope), of(Part::CutSlope));
-        Areas { plan: plan.value(), slope: platform + fill_slope + cut_slope, fill_slope, cut_slope, platform }
-    }
-
-    fn volumes(&self, line: &Line, design: &Design, reference: Option<f64>, ends: &Ends, moved: f64, chord: f64) -> Volumes {
-        let falling = design.sheet == SheetKind::Falling;
-        let (low, high) = line.elevation_range();
-        let inside = design.side_of_rings == crate::model::Side::Inside && line.chains.iter().all(|c| c.closed());
-        let plane = reference.unwrap_or_else(|| match (inside, design.extent) {
-            (true, _) => {
-                if falling {
-                    high
-                } else {
-                    low
-                }
-            }
-            (false, Extent::Elevation(z)) => z,
-            (false, _) => {
-                if falling {
-                    ends.lowest
-                } else {
-                    -ends.lowest
-                }
-            }
-        });
-        let count = self.tin.triangles.len();
-        let found = volume::above_plane((0..count).map(|t| self.tin.corners(t)), plane);
-        let area = |range: std::ops::Range<usize>| -> f64 {
-            range.map(|t| volume::plan_area(self.tin.corners(t))).collect::<Sum>().value()
-        };
-        let cones = (0..self.on_cone.len()).filter(|&t| self.on_cone[t]).map(|t| volume::plan_area(self.tin.corners(t)));
-        let error_bound = moved * area(0..count) + chord * cones.collect::<Sum>().value();
-        Volumes {
-            cut: found.cut,
-            fill: found.fill,
-            error_bound,
-            reference: plane,
-            cut_max: found.cut_max,
-            fill_max: found.fill_max,
-        }
     }
 }
