@@ -92,14 +92,18 @@ pub(crate) fn neighbours(vertex_count: usize, triangles: &[[u32; 3]]) -> Vec<[u3
     }
     let mut found = vec![[NONE; 3]; triangles.len()];
     for v in 0..vertex_count {
-        let list = &sides[start[v] as usize..start[v + 1] as usize];
-        for (n, &(end, side)) in list.iter().enumerate() {
-            for &(other_end, other) in &list[n + 1..] {
-                let (t, u) = ((side / 3) as usize, (other / 3) as usize);
-                let (i, j) = ((side % 3) as usize, (other % 3) as usize);
-                if end == other_end && found[t][i] == NONE && found[u][j] == NONE && triangles[t][i] != triangles[u][j] {
-                    found[t][i] = u as u32;
-                    found[u][j] = t as u32;
+        let list = &mut sides[start[v] as usize..start[v + 1] as usize];
+        // In order of the other end: a vertex may have any number of sides, as the tip of a fan has.
+        list.sort_unstable();
+        for group in list.chunk_by(|a, b| a.0 == b.0) {
+            for (n, &(_, side)) in group.iter().enumerate() {
+                for &(_, other) in &group[n + 1..] {
+                    let (t, u) = ((side / 3) as usize, (other / 3) as usize);
+                    let (i, j) = ((side % 3) as usize, (other % 3) as usize);
+                    if found[t][i] == NONE && found[u][j] == NONE && triangles[t][i] != triangles[u][j] {
+                        found[t][i] = u as u32;
+                        found[u][j] = t as u32;
+                    }
                 }
             }
         }
@@ -204,6 +208,25 @@ impl Bins {
             let from = self.place(DVec2::new(p - slack, bottom))[0];
             let to = self.place(DVec2::new(q + slack, bottom))[0];
             (from..=to).for_each(|x| visit(y * self.size[0] + x));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A fan of a hundred thousand triangles about vertex 0: each has the ones before and after it beside it. Comparing all sides
+    /// of the tip with each other would take minutes.
+    #[test]
+    fn a_fan_has_its_neighbours() {
+        let count = 100_000;
+        let fan: Vec<[u32; 3]> = (0..count).map(|i| [0, i + 1, i + 2]).collect();
+        let found = neighbours(count as usize + 2, &fan);
+        for (i, sides) in (0..count).zip(&found) {
+            let before = if i == 0 { NONE } else { i - 1 };
+            let after = if i + 1 == count { NONE } else { i + 1 };
+            assert_eq!(*sides, [before, NONE, after]);
         }
     }
 }
