@@ -103,7 +103,7 @@ impl Watch for Stages {
 fn line(name: &str, count: usize) -> (Line, Duration) {
     let text = text(name, count);
     let start = Instant::now();
-    let raw = read::parse_line("bench", text.as_bytes(), read::InputFormat::Csv, None).expect("own text");
+    let raw = read::parse_line("bench", text.as_bytes(), &read::ReadOptions::of(read::InputFormat::Csv)).expect("own text");
     let line = validate::check(&raw, &validate::Options::default()).expect("own line").line;
     (line, start.elapsed())
 }

@@ -9,6 +9,7 @@ mod figures;
 mod ground;
 mod on_ground;
 pub mod sample;
+mod units;
 pub mod volume;
 mod watch;
 
@@ -23,7 +24,7 @@ pub use volume::{Against, Compared, ComparisonError, VolumeJob, volume};
 pub use watch::{Observer, WRITING};
 
 use crate::formation::{self, Formation};
-use crate::model::{Line, Slope};
+use crate::model::{LengthUnit, Line, Slope};
 use crate::read::{self, ReadOptions, Source};
 use crate::validate;
 use std::path::PathBuf;
@@ -39,14 +40,27 @@ pub struct LineInput {
     pub closed: bool,
     /// Make roads of open lines.
     pub formation: Option<Formation>,
+    /// Unit of the run, if asked for; `None`: that of the file, else metres.
+    pub unit: Option<LengthUnit>,
     /// How far breaklines may miss rings and each other, in plan and in height, in the length unit.
     pub tolerance: f64,
 }
 
+/// A line ready for use.
+struct Given {
+    line: Line,
+    source: Source,
+    /// Unit of the run: all lengths from here on.
+    unit: LengthUnit,
+}
+
 /// Reads and checks a line; what is worth knowing goes to `observer`.
-fn read_line(input: &LineInput, observer: &watch::Stopwatch<'_>) -> Result<(Line, Source), Error> {
+fn read_line(input: &LineInput, observer: &watch::Stopwatch<'_>) -> Result<Given, Error> {
     observer.stage_of(watch::READING);
-    let raw = read::read_line(&input.path, &input.options)?;
+    let mut raw = read::read_line(&input.path, &input.options)?;
+    let unit = input.unit.or(raw.source.unit).unwrap_or_default();
+    let converted = units::convert_line(&mut raw, unit);
+    raw.notes.extend(converted);
     raw.notes.iter().for_each(|note| observer.note(note));
     observer.stage_of(watch::CHECKING);
     let checked = validate::check(&raw, &validate::Options { closed: input.closed })?;
@@ -59,7 +73,7 @@ fn read_line(input: &LineInput, observer: &watch::Stopwatch<'_>) -> Result<(Line
     }
     let formed = formation::place(line, &raw.source.label, input.tolerance)?;
     formed.notes.iter().for_each(|note| observer.note(note));
-    Ok((formed.line, raw.source))
+    Ok(Given { line: formed.line, source: raw.source, unit })
 }
 
 /// Refuses segments as steep as the slope.

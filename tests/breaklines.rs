@@ -5,7 +5,7 @@ mod common;
 use common::build::{build, design};
 use slopegen::formation::{self, Crossfall, Formation};
 use slopegen::model::{CurveKind, Extent, Line, Part};
-use slopegen::read::{InputFormat, parse_line};
+use slopegen::read::{InputFormat, ReadOptions, parse_line};
 use slopegen::surface::Surface;
 use slopegen::validate::{self, Options};
 
@@ -25,7 +25,7 @@ fn feature(kind: &str, coordinates: &str) -> String {
 
 fn checked(features: &[String]) -> Line {
     let text = format!(r#"{{"type":"FeatureCollection","features":[{}]}}"#, features.join(","));
-    let raw = parse_line("pad.geojson", text.as_bytes(), InputFormat::GeoJson, None).unwrap();
+    let raw = parse_line("pad.geojson", text.as_bytes(), &ReadOptions::of(InputFormat::GeoJson)).unwrap();
     validate::check(&raw, &Options::default()).unwrap().line
 }
 
@@ -141,7 +141,7 @@ fn refusals() {
     let crossing = with(&[("MultiLineString", "[[[5,5,10],[15,15,10]],[[5,15,12],[15,5,12]]]")]).unwrap_err();
     assert!(crossing.contains("at x 10.000, y 10.000: 12.000 against 10.000"), "{crossing}");
     let text = format!(r#"{{"type":"FeatureCollection","features":[{}]}}"#, feature("Point", "[1,1,1]"));
-    let error = parse_line("p", text.as_bytes(), InputFormat::GeoJson, None).unwrap_err().to_string();
+    let error = parse_line("p", text.as_bytes(), &ReadOptions::of(InputFormat::GeoJson)).unwrap_err().to_string();
     assert!(error.contains("the file holds breaklines, but no line"), "{error}");
 }
 

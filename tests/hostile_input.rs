@@ -2,14 +2,15 @@
 
 use proptest::prelude::*;
 use slopegen::model::{Role, Slope};
-use slopegen::read::{self, InputFormat};
+use slopegen::read::{self, InputFormat, ReadOptions};
 use slopegen::validate::{self, Options};
 use std::fmt::Write as _;
 
 /// Reads and checks; what comes through must meet the invariants of a line.
 fn run(bytes: &[u8], format: InputFormat, order: Option<&str>, closed: bool) -> Result<usize, String> {
     let order = order.map(|o| o.parse().unwrap());
-    let raw = read::parse_line("a", bytes, format, order.as_ref()).map_err(|e| e.to_string())?;
+    let raw =
+        read::parse_line("a", bytes, &ReadOptions { csv_order: order, ..ReadOptions::of(format) }).map_err(|e| e.to_string())?;
     let checked = validate::check(&raw, &Options { closed }).map_err(|e| e.to_string())?;
     for chain in &checked.line.chains {
         let n = chain.vertices.len();
@@ -127,7 +128,7 @@ proptest! {
         let csv = format!("x,y,z\n{x},{y},{z}\n{},{y},{z}\n", x + 1.0);
         let json = format!("{{\"type\":\"LineString\",\"coordinates\":[[{x:?},{y:?},{z:?}],[0.5,0.25,1]]}}");
         for (text, format) in [(csv, InputFormat::Csv), (json, InputFormat::GeoJson)] {
-            let raw = read::parse_line("a", text.as_bytes(), format, None).unwrap();
+            let raw = read::parse_line("a", text.as_bytes(), &ReadOptions::of(format)).unwrap();
             let v = raw.lines[0].vertices[0];
             prop_assert_eq!((v.x, v.y, v.z), (x, y, Some(z)));
         }
@@ -186,7 +187,7 @@ fn tiny_steps_do_not_creep_together() {
     for i in 0..1000 {
         writeln!(text, "{},100,5", f64::from(i) * 0.6e-6).unwrap();
     }
-    let raw = read::parse_line("a", text.as_bytes(), InputFormat::Csv, None).unwrap();
+    let raw = read::parse_line("a", text.as_bytes(), &ReadOptions::of(InputFormat::Csv)).unwrap();
     let checked = validate::check(&raw, &Options::default()).unwrap();
     assert_eq!(checked.line.vertex_count(), 500);
 }
@@ -219,7 +220,7 @@ fn a_hatched_ring_is_checked_in_time() {
     for (x, y) in points {
         writeln!(text, "{},{},5", cos * x - sin * y, sin * x + cos * y).unwrap();
     }
-    let raw = read::parse_line("a", text.as_bytes(), InputFormat::Csv, None).unwrap();
+    let raw = read::parse_line("a", text.as_bytes(), &ReadOptions::of(InputFormat::Csv)).unwrap();
     let checked = validate::check(&raw, &Options { closed: true }).unwrap();
     assert_eq!(checked.line.chains[0].role, Role::Outer { polygon: 0 });
 }

@@ -162,7 +162,8 @@ fn points_need_no_elevation() {
 fn text(text: &str, order: Option<&str>) -> Result<(Line, Vec<Note>), String> {
     let order = order.map(|o| o.parse().unwrap());
     let format = if text.starts_with('{') { read::InputFormat::GeoJson } else { read::InputFormat::Csv };
-    let raw = read::parse_line("a", text.as_bytes(), format, order.as_ref()).map_err(|e| e.to_string())?;
+    let raw = read::parse_line("a", text.as_bytes(), &ReadOptions { csv_order: order, ..ReadOptions::of(format) })
+        .map_err(|e| e.to_string())?;
     check(&raw, false).map(|(line, notes)| (line, raw.notes.into_iter().chain(notes).collect()))
 }
 

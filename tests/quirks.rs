@@ -103,7 +103,7 @@ fn awkward_ground_is_taken_or_refused_as_listed() {
         let ours = path.extension().is_some_and(|e| ["obj", "ply", "xyz", "csv", "asc"].iter().any(|ours| e == *ours));
         if !ours {
             // What is not read must be refused by its content, under any name.
-            let renamed = std::fs::read(&path).map(|bytes| parse_terrain(name, &bytes, InputFormat::Obj, None));
+            let renamed = std::fs::read(&path).map(|bytes| parse_terrain(name, &bytes, &TerrainOptions::of(InputFormat::Obj)));
             if !matches!(renamed, Ok(Err(_))) {
                 wrong.push(format!("{name}: taken for an OBJ file"));
             }

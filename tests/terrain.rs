@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 /// Reads, prepares and inspects; the codes of all notes.
 fn ground(format: InputFormat, bytes: &[u8]) -> Result<(Terrain, Vec<&'static str>), String> {
-    let raw = parse_terrain("a", bytes, format, None).map_err(|e| e.to_string())?;
+    let raw = parse_terrain("a", bytes, &TerrainOptions::of(format)).map_err(|e| e.to_string())?;
     let prepared = prepare(raw).map_err(|e| e.to_string())?;
     let found = inspect("a", &prepared.terrain);
     found.defects.into_result().map_err(|e| e.to_string())?;
@@ -195,7 +195,7 @@ fn a_spike_a_hole_and_a_piece_are_told() {
     // Single precision at 5 400 000 has steps of 0.5; the widest 2²² ≤ y < 2²³.
     let rounded: Vec<[f64; 3]> =
         given.iter().map(|v| [f64::from((v[0] + 0.03) as f32), f64::from((v[1] + 0.3) as f32), v[2]]).collect();
-    let raw = parse_terrain("a", obj(&rounded, &faces).as_bytes(), InputFormat::Obj, None).unwrap();
+    let raw = parse_terrain("a", obj(&rounded, &faces).as_bytes(), &TerrainOptions::of(InputFormat::Obj)).unwrap();
     let notes = prepare(raw).unwrap().notes;
     assert_eq!(notes[0].code, "ground-single-precision");
     assert!(notes[0].message.contains("steps of up to 0.5 at 5400050"), "{}", notes[0].message);

@@ -75,6 +75,15 @@ pub(super) struct BuildArgs {
     /// Columns of a ground of points without a header, such as xyz or pnezd
     #[arg(long, value_name = "ORDER", requires = "terrain", help_heading = help::INPUT)]
     pub(super) terrain_order: Option<String>,
+    /// Which surface of a LandXML file with several of them is the ground
+    #[arg(long, value_name = "NAME", requires = "terrain", help_heading = help::INPUT)]
+    pub(super) surface: Option<String>,
+    /// Take the ground from these layers of a drawing only; may be repeated [default: all that are on]
+    #[arg(long, value_name = "NAME", requires = "terrain", help_heading = help::INPUT)]
+    pub(super) terrain_layer: Vec<String>,
+    /// Points of these classes of a LAS or LAZ file are ground, such as 2 or 2,8 [default: 2]
+    #[arg(long, value_name = "N", requires = "terrain", value_delimiter = ',', help_heading = help::INPUT)]
+    pub(super) class: Vec<u8>,
     /// Accept slopes that end without meeting the ground, and platforms partly beside it
     #[arg(long, help_heading = help::SURFACE)]
     pub(super) allow_open: bool,
@@ -188,6 +197,15 @@ pub(super) struct InputArgs {
     /// x or e easting, y or n northing, z elevation, l line id, p point number, d description, _ a column to skip.
     #[arg(long, value_name = "ORDER", help_heading = help::INPUT)]
     pub(super) csv_order: Option<String>,
+    /// Use only the lines of this name, where a file has several; may be repeated
+    #[arg(long, value_name = "NAME", help_heading = help::INPUT)]
+    pub(super) feature: Vec<String>,
+    /// Use only the lines on this layer of a drawing; may be repeated [default: all that are on]
+    #[arg(long, value_name = "NAME", help_heading = help::INPUT)]
+    pub(super) layer: Vec<String>,
+    /// Unit of the figures, and of files that declare none: m, ft (0.3048 m) or us-ft (1200/3937 m) [default: that of the line, else m]
+    #[arg(long, value_name = "UNIT", help_heading = help::INPUT)]
+    pub(super) units: Option<String>,
     /// Make rings of lines that do not end where they begin
     #[arg(long, help_heading = help::INPUT)]
     pub(super) closed: bool,
@@ -249,4 +267,6 @@ pub(super) enum DirectionArg {
 pub(super) enum FormatArg {
     Geojson,
     Csv,
+    Landxml,
+    Dxf,
 }

@@ -3,10 +3,10 @@
 use super::args::{BuildArgs, DirectionArg, FormatArg, InputArgs, Running, SampleArgs, SideArg, SlopeArgs, VolumeArgs};
 use super::number::{self, Rule};
 use crate::formation::{Crossfall, Formation};
-use crate::model::{Bulking, Extent, Sheet, Side, Slope};
+use crate::model::{Bulking, Extent, LengthUnit, Sheet, Side, Slope};
 use crate::pipeline::{Against, Area, BuildJob, GroundInput, Lattice, LineInput, SampleJob, VolumeJob, Where, Wishes};
 use crate::read::terrain::TerrainOptions;
-use crate::read::{ColumnOrder, InputFormat, ReadOptions};
+use crate::read::{ColumnOrder, InputFormat, Pick, ReadOptions};
 use crate::report::ReportFormat;
 use crate::write::{MeshFormat, Target, UnknownFormat};
 use glam::DVec2;
@@ -110,12 +110,21 @@ impl Checks {
         let format = args.input_format.map(|format| match format {
             FormatArg::Geojson => InputFormat::GeoJson,
             FormatArg::Csv => InputFormat::Csv,
+            FormatArg::Landxml => InputFormat::LandXml,
+            FormatArg::Dxf => InputFormat::Dxf,
         });
         let csv_order = self.order("--csv-order", args.csv_order.as_ref());
         let tolerance = DEFAULT_TOLERANCE;
         let formation = self.formation(args, tolerance);
-        let options = ReadOptions { format, csv_order };
-        LineInput { path: args.input.clone(), options, closed: args.closed, formation, tolerance }
+        let unit = args.units.as_ref().and_then(|text| {
+            self.take(text.parse::<LengthUnit>().map_err(|error| match error.split_once("; ") {
+                Some((what, help)) => format!("{what}\n  --> --units {text}\n   = help: {help}"),
+                None => error,
+            }))
+        });
+        let pick = Pick { features: args.feature.clone(), layers: args.layer.clone(), ..Pick::default() };
+        let options = ReadOptions { format, csv_order, pick, ..ReadOptions::default() };
+        LineInput { path: args.input.clone(), options, closed: args.closed, formation, unit, tolerance }
     }
 
     fn formation(&mut self, args: &InputArgs, tolerance: f64) -> Option<Formation> {
@@ -187,6 +196,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     let tolerance = checks.number("--tolerance", Some(&args.tolerance), Rule::AtLeast(LEAST_LENGTH));
     if let Some(tolerance) = tolerance {
         input.tolerance = tolerance;
+        input.options.chord = tolerance / CHORDS;
         input.formation.iter_mut().for_each(|road| road.chord = tolerance / CHORDS);
     }
     let reference = checks.number("--reference", args.reference.as_ref(), Rule::Coordinate);
@@ -264,7 +274,16 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     let csv_order = checks.order("--terrain-order", args.terrain_order.as_ref());
     let ground = args.terrain.as_ref().map(|path| GroundInput {
         path: path.clone(),
-        options: TerrainOptions { format: None, csv_order },
+        options: TerrainOptions {
+            format: None,
+            csv_order,
+            pick: Pick {
+                surface: args.surface.clone(),
+                layers: args.terrain_layer.clone(),
+                classes: args.class.clone(),
+                ..Pick::default()
+            },
+        },
         allow_open: args.allow_open,
     });
     let job = tolerance.filter(|_| !slopes.is_empty()).map(|tolerance| BuildJob {
@@ -300,7 +319,7 @@ pub(super) fn sample_job(args: &SampleArgs) -> Result<SampleJob, UsageErrors> {
             }
             let output = args.output.as_deref().map_or(Target::Stdout, Target::from_arg);
             checks.format(ending(&output, "file of points", &["csv", "txt", "xyz"], "`.csv`, `.txt` or `.xyz`"));
-            Some((Where::Points { path: path.clone(), options: ReadOptions { format: None, csv_order } }, output))
+            Some((Where::Points { path: path.clone(), options: ReadOptions { csv_order, ..ReadOptions::default() } }, output))
         }
         (None, Some(raster)) => {
             let output = Target::from_arg(raster);

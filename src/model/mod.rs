@@ -8,6 +8,7 @@ pub mod note;
 pub mod slope;
 pub mod terrain;
 pub mod tin;
+pub mod unit;
 
 pub use bulking::{Bulking, Share, ShareError};
 pub use design::{Design, Extent, Sheet, Side};
@@ -17,3 +18,4 @@ pub use note::{Defect, Defects, Note};
 pub use slope::Slope;
 pub use terrain::Terrain;
 pub use tin::{CurveKind, LineFeature, Part, Tin};
+pub use unit::LengthUnit;

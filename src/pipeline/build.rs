@@ -1,7 +1,7 @@
 //! The main job: a line to a surface, its files and its report.
 
 use super::watch::{CHECKING, Observer, PREPARING, READING, READING_GROUND, Stopwatch, WRITING};
-use super::{BuriedError, Error, GroundInput, LineInput, Wishes, check_steepness, figures, on_ground, read_line};
+use super::{BuriedError, Error, Given, GroundInput, LineInput, Wishes, check_steepness, figures, on_ground, read_line};
 use crate::model::{Bulking, Line, LineFeature, Tin};
 use crate::read::Source;
 use crate::report::{CrossfallFigures, Report, ReportFormat};
@@ -65,11 +65,12 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     let inputs: Vec<&Path> = std::iter::once(job.input.path.as_path()).chain(ground_path).collect();
     let mut outputs = Outputs::open(&targets, &inputs)?;
 
-    let (line, source) = read_line(&job.input, &watch)?;
+    let Given { line, source, unit } = read_line(&job.input, &watch)?;
     let Product { design, finished, lines, mut report } = match &job.ground {
-        Some(ground) => on_ground::build(job, ground, &line, &source, &watch)?,
+        Some(ground) => on_ground::build(job, ground, &line, &source, unit, &watch)?,
         None => alone(job, &line, &source, &watch)?,
     };
+    report.units = unit.into();
     if let Some(road) = &job.input.formation {
         report.line.width = Some(road.width);
         report.line.crossfall = Some(CrossfallFigures { left: road.crossfall.left, right: road.crossfall.right });

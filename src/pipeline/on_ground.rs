@@ -4,7 +4,7 @@ use super::build::{BuildJob, Product};
 use super::watch::Stopwatch;
 use super::{Error, Wishes, check_steepness, figures, ground};
 use crate::ground::{Options, Site};
-use crate::model::{Design, Extent, Line, Sheet, Side, Terrain};
+use crate::model::{Design, Extent, LengthUnit, Line, Sheet, Side, Terrain};
 use crate::read::terrain::TerrainOptions;
 use crate::read::{ReadError, Source};
 use crate::report::TerrainFigures;
@@ -28,15 +28,17 @@ pub(super) fn build(
     input: &GroundInput,
     line: &Line,
     source: &Source,
+    unit: LengthUnit,
     watch: &Stopwatch<'_>,
 ) -> Result<Product, Error> {
-    let (terrain, ground_source) = ground::read_ground(&input.path, &input.options, watch).map_err(|error| match error {
-        // The columns of the ground have an option of their own.
-        Error::Read(ReadError::Content { what, at, figures, help }) => {
-            ReadError::Content { what, at, figures, help: help.replace("--csv-order", "--terrain-order") }.into()
-        }
-        other => other,
-    })?;
+    let (terrain, ground_source) =
+        ground::read_ground(&input.path, &input.options, Some(unit), watch).map_err(|error| match error {
+            // The columns of the ground have an option of their own.
+            Error::Read(ReadError::Content { what, at, figures, help }) => {
+                ReadError::Content { what, at, figures, help: help.replace("--csv-order", "--terrain-order") }.into()
+            }
+            other => other,
+        })?;
     terrain::check_overlap(&terrain, &ground_source.label, line, &source.label)?;
     for wishes in &job.wishes {
         check_steepness(line, source, wishes.slope)?;

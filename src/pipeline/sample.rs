@@ -1,7 +1,7 @@
 //! Exact heights of the sheet of the given line, at points or on a grid.
 
 use super::watch::{Observer, Stopwatch, WRITING};
-use super::{Error, LineInput, check_steepness, read_line};
+use super::{Error, Given, LineInput, check_steepness, read_line};
 use crate::model::{Defect, Defects, Line, Sheet, Slope};
 use crate::read::{self, RawPoints, ReadError, ReadOptions};
 use crate::sheet::{Grid, Heights};
@@ -87,7 +87,7 @@ pub fn sample(job: &SampleJob, observer: &dyn Observer) -> Result<Sampled, Error
         inputs.push(path.clone());
     }
     let mut outputs = Outputs::open(std::slice::from_ref(&job.output), &inputs)?;
-    let (line, source) = read_line(&job.input, &watch)?;
+    let Given { line, source, .. } = read_line(&job.input, &watch)?;
     check_steepness(&line, &source, job.slope)?;
     let heights = match &job.at {
         Where::Points { path, options } => {

@@ -8,7 +8,7 @@ use crate::overlay::{self, Between, OverlayError, Surface};
 use crate::read::terrain::TerrainOptions;
 use crate::read::{self, ColumnOrder, ReadOptions, Source};
 use crate::report::between::{BetweenDepths, BetweenReference, BetweenReport, BetweenTiming, BetweenVolumes, MeshFigures};
-use crate::report::{Balance, Detail, Input, ReportFormat, SCHEMA, Tool, Units, Warning};
+use crate::report::{Balance, Detail, Input, ReportFormat, SCHEMA, Tool, Warning};
 use crate::surface::Watch;
 use crate::validate;
 use crate::write::{Outputs, Target};
@@ -123,10 +123,12 @@ pub fn volume(job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Erro
     let inputs: Vec<PathBuf> = design.into_iter().chain([existing]).chain(&job.within).cloned().collect();
     let mut outputs = Outputs::open(&targets, &inputs)?;
 
-    let options = TerrainOptions { format: None, csv_order: job.csv_order.clone() };
-    let read = |path: &Path, surface: Surface| read_ground(path, &options, &Named { watch: &watch, surface });
-    let design = design.map(|path| read(path, Surface::Design)).transpose()?;
-    let existing = read(existing, Surface::Existing)?;
+    let options = TerrainOptions { csv_order: job.csv_order.clone(), ..TerrainOptions::default() };
+    let read = |path: &Path, unit, surface: Surface| read_ground(path, &options, unit, &Named { watch: &watch, surface });
+    let design = design.map(|path| read(path, None, Surface::Design)).transpose()?;
+    let declared = design.as_ref().and_then(|(_, source)| source.unit);
+    let existing = read(existing, declared, Surface::Existing)?;
+    let unit = declared.or(existing.1.unit).unwrap_or_default();
     let area = job.within.as_ref().map(|path| rings(path, &watch)).transpose()?;
 
     watch.stage_of(VOLUMES);
@@ -149,7 +151,7 @@ pub fn volume(job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Erro
         schema: SCHEMA,
         tool: Tool::default(),
         inputs,
-        units: Units::default(),
+        units: unit.into(),
         meshes: meshes
             .map(|(role, mesh)| MeshFigures { role, vertices: mesh.vertices.len(), triangles: mesh.triangles.len() })
             .collect(),

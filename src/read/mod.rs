@@ -4,16 +4,20 @@ mod columns;
 mod csv;
 mod decimal;
 mod decode;
+mod dxf;
 mod error;
 mod geojson;
+mod landxml;
 mod number;
+mod pick;
 mod sniff;
 pub mod terrain;
 
 pub use columns::ColumnOrder;
 pub use error::ReadError;
+pub use pick::Pick;
 
-use crate::model::Note;
+use crate::model::{LengthUnit, Note};
 use sha2::{Digest, Sha256};
 use std::fmt;
 use std::io::Read;
@@ -32,6 +36,16 @@ pub enum InputFormat {
     Ply,
     /// ESRI ASCII grid: ground only.
     Asc,
+    /// LandXML 1.0 to 2.0 and InfraModel: lines and ground.
+    LandXml,
+    /// AutoCAD DXF: lines and ground.
+    Dxf,
+    /// GeoTIFF elevation model: ground only.
+    GeoTiff,
+    /// LAS or LAZ point cloud: ground only.
+    Las,
+    /// GPS track: known, and always refused.
+    Gpx,
 }
 
 impl InputFormat {
@@ -43,6 +57,11 @@ impl InputFormat {
             Self::Obj => "obj",
             Self::Ply => "ply",
             Self::Asc => "asc",
+            Self::LandXml => "landxml",
+            Self::Dxf => "dxf",
+            Self::GeoTiff => "geotiff",
+            Self::Las => "las",
+            Self::Gpx => "gpx",
         }
     }
 
@@ -55,6 +74,11 @@ impl InputFormat {
             "obj" => Some(Self::Obj),
             "ply" => Some(Self::Ply),
             "asc" => Some(Self::Asc),
+            "xml" | "landxml" => Some(Self::LandXml),
+            "dxf" => Some(Self::Dxf),
+            "tif" | "tiff" => Some(Self::GeoTiff),
+            "las" | "laz" => Some(Self::Las),
+            "gpx" => Some(Self::Gpx),
             _ => None,
         }
     }
@@ -91,6 +115,8 @@ pub struct Source {
     pub crs: Option<String>,
     /// What the file says about its coordinates.
     pub kind: CoordinateKind,
+    /// Unit of length the file declares, of plan and height alike.
+    pub unit: Option<LengthUnit>,
 }
 
 /// What a raw line is in its file.
@@ -169,13 +195,34 @@ pub struct RawPoints {
 }
 
 /// What the caller knows about a file.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct ReadOptions {
     /// Its format; `None`: from the extension. Needed for standard input.
     pub format: Option<InputFormat>,
     /// The columns of a text file without header.
     pub csv_order: Option<ColumnOrder>,
+    /// What is meant of a file that holds several things.
+    pub pick: Pick,
+    /// How far the chords of arcs, clothoids and vertical curves may lie off them, in the length unit of the file; positive.
+    pub chord: f64,
 }
+
+impl Default for ReadOptions {
+    /// Nothing known, everything taken, chords within [`DEFAULT_CHORD`].
+    fn default() -> Self {
+        Self { format: None, csv_order: None, pick: Pick::default(), chord: DEFAULT_CHORD }
+    }
+}
+
+impl ReadOptions {
+    /// Nothing known but the format.
+    pub fn of(format: InputFormat) -> Self {
+        Self { format: Some(format), ..Self::default() }
+    }
+}
+
+/// Chord of curves where the caller says nothing: a third of the usual tolerance of 0.01, in the length unit.
+pub const DEFAULT_CHORD: f64 = 0.01 / 3.0;
 
 /// Reads a line from a file, or from standard input when the path is `-`.
 ///
@@ -184,25 +231,43 @@ pub struct ReadOptions {
 /// elevations and everything about the shape are left to validation.
 pub fn read_line(path: &Path, options: &ReadOptions) -> Result<RawInput, ReadError> {
     let (label, format, bytes) = load(path, options)?;
-    parse_line(&label, &bytes, format, options.csv_order.as_ref())
+    parse_line(&label, &bytes, &ReadOptions { format: Some(format), ..options.clone() })
 }
 
-/// Reads a line from bytes; `label` names them in messages.
+/// Reads a line from bytes; `label` names them in messages. Without a format they are GeoJSON.
 ///
 /// # Errors
 /// As [`read_line`].
-pub fn parse_line(label: &str, bytes: &[u8], format: InputFormat, order: Option<&ColumnOrder>) -> Result<RawInput, ReadError> {
+pub fn parse_line(label: &str, bytes: &[u8], options: &ReadOptions) -> Result<RawInput, ReadError> {
+    let format = options.format.unwrap_or(InputFormat::GeoJson);
     let mut notes = Vec::new();
-    let text = match format {
-        InputFormat::GeoJson | InputFormat::Csv => decode::text(label, bytes, &mut notes)?,
-        InputFormat::Obj | InputFormat::Ply | InputFormat::Asc => return Err(no_line(label, format)),
-    };
     let mut source = source(label, format, bytes);
     let lines = match format {
-        InputFormat::GeoJson => geojson::lines(&text, &mut source, &mut notes)?,
-        _ => csv::lines(&text, &mut source, order, &mut notes)?,
+        InputFormat::GeoJson => geojson::lines(&decode::text(label, bytes, &mut notes)?, &mut source, &mut notes)?,
+        InputFormat::Csv => {
+            csv::lines(&decode::text(label, bytes, &mut notes)?, &mut source, options.csv_order.as_ref(), &mut notes)?
+        }
+        InputFormat::LandXml => landxml::lines(bytes, &mut source, options, &mut notes)?,
+        InputFormat::Dxf => dxf::lines(bytes, &mut source, options, &mut notes)?,
+        InputFormat::Gpx => return Err(gpx(label)),
+        InputFormat::Obj | InputFormat::Ply | InputFormat::Asc | InputFormat::GeoTiff | InputFormat::Las => {
+            return Err(no_line(label, format));
+        }
     };
     Ok(RawInput { source, lines, notes })
+}
+
+/// A track of a GPS receiver is no survey: degrees, and heights off by metres.
+fn gpx(label: &str) -> ReadError {
+    ReadError::Content {
+        what: "a GPS track is no survey: its positions are degrees, its heights good to metres at best".into(),
+        at: label.to_owned(),
+        figures: "format: gpx".into(),
+        help: format!(
+            "survey the line; for a sketch project it first, e.g. `ogr2ogr -f GeoJSON -t_srs EPSG:25832 line.geojson {label} \
+             tracks`, with the EPSG code of your grid"
+        ),
+    }
 }
 
 fn no_line(label: &str, format: InputFormat) -> ReadError {
@@ -257,5 +322,5 @@ fn load(path: &Path, options: &ReadOptions) -> Result<(String, InputFormat, Vec<
 
 fn source(label: &str, format: InputFormat, bytes: &[u8]) -> Source {
     let sha256 = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-    Source { label: label.to_owned(), format, sha256, crs: None, kind: CoordinateKind::Unknown }
+    Source { label: label.to_owned(), format, sha256, crs: None, kind: CoordinateKind::Unknown, unit: None }
 }

@@ -5,7 +5,7 @@
 
 use super::ground::{Daylight, FinishedFigures, GroundAreas, PadRow, SectionSlopes, StationRow, TerrainFigures};
 use super::volumes::{Depths, Volumes};
-use crate::model::{Extent, Slope};
+use crate::model::{Extent, LengthUnit, Slope};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -110,7 +110,13 @@ pub struct Units {
 impl Default for Units {
     /// Metres.
     fn default() -> Self {
-        Self { length: "m".to_owned() }
+        LengthUnit::default().into()
+    }
+}
+
+impl From<LengthUnit> for Units {
+    fn from(unit: LengthUnit) -> Self {
+        Self { length: unit.label().to_owned() }
     }
 }
 

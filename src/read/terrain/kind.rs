@@ -15,25 +15,29 @@ enum Looks {
 }
 
 const FROM_RASTER: &str = "convert it, e.g. `gdal_translate -of AAIGrid in.tif ground.asc`";
-const FROM_CLOUD: &str = "export its ground points as text, e.g. `pdal translate in.las ground.csv --filters.range.limits=\
-                          \"Classification[2:2]\" filters.range`";
 const FROM_SURFACE: &str = "export the surface as OBJ or PLY";
 const UNPACK: &str = "unpack it first";
 const FROM_MESH: &str = "export the mesh as OBJ or PLY with double coordinates";
 
+/// First bytes of binary formats that are read.
+const BINARY: [(&[u8], InputFormat); 7] = [
+    (b"ply\n", InputFormat::Ply),
+    (b"ply\r", InputFormat::Ply),
+    (b"II*\0", InputFormat::GeoTiff),
+    (b"MM\0*", InputFormat::GeoTiff),
+    (b"II+\0", InputFormat::GeoTiff),
+    (b"MM\0+", InputFormat::GeoTiff),
+    (b"LASF", InputFormat::Las),
+];
+
 /// First bytes of formats that are known but not read.
-const SIGNATURES: [(&[u8], &str, &str); 19] = [
-    (b"II*\0", "a TIFF image", FROM_RASTER),
-    (b"MM\0*", "a TIFF image", FROM_RASTER),
-    (b"II+\0", "a BigTIFF image", FROM_RASTER),
-    (b"MM\0+", "a BigTIFF image", FROM_RASTER),
+const SIGNATURES: [(&[u8], &str, &str); 14] = [
     (b"\x89PNG", "a PNG image", FROM_RASTER),
     (b"\xFF\xD8\xFF", "a JPEG image", "give the elevations, not a picture of them"),
     (b"DSAA", "a Surfer grid", FROM_RASTER),
     (b"DSBB", "a Surfer grid", FROM_RASTER),
     (b"DSRB", "a Surfer grid", FROM_RASTER),
     (b"\x89HDF", "an HDF file", FROM_RASTER),
-    (b"LASF", "a LAS point cloud", FROM_CLOUD),
     (b"PK\x03\x04", "a ZIP archive", UNPACK),
     (b"\x1F\x8B", "a gzip archive", UNPACK),
     (b"7z\xBC\xAF", "a 7z archive", UNPACK),
@@ -46,8 +50,8 @@ const SIGNATURES: [(&[u8], &str, &str); 19] = [
 
 fn looks(bytes: &[u8]) -> Looks {
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-    if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
-        return Looks::Like(InputFormat::Ply);
+    if let Some((_, format)) = BINARY.iter().find(|(signature, _)| bytes.starts_with(signature)) {
+        return Looks::Like(*format);
     }
     if let Some((_, name, help)) = SIGNATURES.iter().find(|(signature, ..)| bytes.starts_with(signature)) {
         return Looks::Other(name, help);
@@ -62,7 +66,8 @@ fn looks(bytes: &[u8]) -> Looks {
     if first.starts_with(b"<") {
         let html = has(b"<html") || has(b"<!doctype html");
         return match (has(b"landxml"), html) {
-            (true, _) => Looks::Other("LandXML", FROM_SURFACE),
+            (true, _) => Looks::Like(InputFormat::LandXml),
+            _ if has(b"<gpx") => Looks::Like(InputFormat::Gpx),
             (_, true) => Looks::Other("a web page", "download the file itself"),
             _ => Looks::Other("XML", FROM_SURFACE),
         };
@@ -74,7 +79,7 @@ fn looks(bytes: &[u8]) -> Looks {
         return Looks::Like(InputFormat::Asc);
     }
     if (word == b"0" && data.get(1).is_some_and(|line| *line == b"SECTION")) || word == b"999" && has(b"SECTION") {
-        return Looks::Other("a DXF drawing", FROM_SURFACE);
+        return Looks::Like(InputFormat::Dxf);
     }
     let next = first[word.len()..].trim_ascii_start().first();
     let figure = next.is_some_and(|b| b.is_ascii_digit() || b"+-.".contains(b));
@@ -99,6 +104,11 @@ fn name(format: InputFormat) -> &'static str {
         InputFormat::Obj => "an OBJ mesh",
         InputFormat::Ply => "a PLY mesh",
         InputFormat::Asc => "an ESRI ASCII grid",
+        InputFormat::LandXml => "LandXML",
+        InputFormat::Dxf => "a DXF drawing",
+        InputFormat::GeoTiff => "a GeoTIFF",
+        InputFormat::Las => "a LAS point cloud",
+        InputFormat::Gpx => "a GPS track",
     }
 }
 
@@ -109,6 +119,11 @@ fn extension(format: InputFormat) -> &'static str {
         InputFormat::Obj => ".obj",
         InputFormat::Ply => ".ply",
         InputFormat::Asc => ".asc",
+        InputFormat::LandXml => ".xml",
+        InputFormat::Dxf => ".dxf",
+        InputFormat::GeoTiff => ".tif",
+        InputFormat::Las => ".las",
+        InputFormat::Gpx => ".gpx",
     }
 }
 
@@ -117,6 +132,9 @@ pub(super) fn check(label: &str, bytes: &[u8], format: InputFormat) -> Result<()
     if format == InputFormat::GeoJson {
         let help = "give the ground as OBJ, PLY, points as text (.csv, .xyz), or ESRI ASCII grid (.asc)";
         return Err(refuse("ground is not read from GeoJSON", label, "format: geojson", help));
+    }
+    if format == InputFormat::Gpx {
+        return Err(crate::read::gpx(label));
     }
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Err(refuse("the ground file is empty", label, format!("{} bytes", bytes.len()), "give a file with ground in it"));
@@ -160,18 +178,17 @@ mod tests {
             (b"\xEF\xBB\xBFv 1 2 3\n", InputFormat::Obj),
             (b"ply\r\nformat", InputFormat::Ply),
             (b"NCOLS 4\n", InputFormat::Asc),
+            (b"II*\0rest", InputFormat::GeoTiff),
+            (b"LASF", InputFormat::Las),
+            (b"<?xml version=\"1.0\"?>\n<LandXML>", InputFormat::LandXml),
+            (b"<?xml version=\"1.0\"?>\n<gpx version=\"1.1\">", InputFormat::Gpx),
+            (b"  0\nSECTION\n", InputFormat::Dxf),
             (b"1.5 2.5 3\n", InputFormat::Csv),
             (b"#x y z\n1;2;3\n", InputFormat::Csv),
         ] {
             assert_eq!(looks(bytes), Looks::Like(format), "{}", clip(bytes));
         }
-        for (bytes, found) in [
-            (&b"II*\0rest"[..], "a TIFF image"),
-            (b"LASF", "a LAS point cloud"),
-            (b"<?xml version=\"1.0\"?>\n<LandXML>", "LandXML"),
-            (b"  0\nSECTION\n", "a DXF drawing"),
-            (b"{\"type\":1}", "JSON"),
-        ] {
+        for (bytes, found) in [(&b"\x89PNG"[..], "a PNG image"), (b"{\"type\":1}", "JSON")] {
             assert!(matches!(looks(bytes), Looks::Other(name, _) if name == found), "{}", clip(bytes));
         }
         assert_eq!(looks(b"x,y,z\n1,2,3"), Looks::Unknown);
@@ -181,7 +198,7 @@ mod tests {
     #[test]
     fn a_wrong_name_is_told() {
         let error = check("a.obj", b"II*\0", InputFormat::Obj).unwrap_err().to_string();
-        assert!(error.contains("not an OBJ mesh") && error.contains("looks like a TIFF image"), "{error}");
+        assert!(error.contains("not an OBJ mesh") && error.contains("looks like a GeoTIFF"), "{error}");
         let error = check("a.csv", b"v 1 2 3\n", InputFormat::Csv).unwrap_err().to_string();
         assert!(error.contains("looks like an OBJ mesh") && error.contains("`.obj`"), "{error}");
         assert!(check("a.csv", b"x,y,z\n1,2,3", InputFormat::Csv).is_ok());

@@ -1,8 +1,9 @@
 //! Existing ground: bytes → raw meshes, points and grids, in world coordinates and in the order of the file.
 
 mod asc;
-
+mod geotiff;
 mod kind;
+mod las;
 mod mesh;
 mod obj;
 mod ply;
@@ -10,8 +11,8 @@ mod points;
 
 pub use mesh::{RawMesh, read_mesh};
 
-use super::{ColumnOrder, InputFormat, ReadError, Source};
-use crate::model::Note;
+use super::{ColumnOrder, InputFormat, Pick, ReadError, Source};
+use crate::model::{LengthUnit, Note};
 use glam::{DVec2, DVec3};
 use std::path::Path;
 
@@ -22,6 +23,15 @@ pub struct TerrainOptions {
     pub format: Option<InputFormat>,
     /// The columns of a text file without header.
     pub csv_order: Option<ColumnOrder>,
+    /// What is meant of a file that holds several things.
+    pub pick: Pick,
+}
+
+impl TerrainOptions {
+    /// Nothing known but the format.
+    pub fn of(format: InputFormat) -> Self {
+        Self { format: Some(format), ..Self::default() }
+    }
 }
 
 /// Faces of a mesh, corners as vertex indices, all of them below the number of vertices.
@@ -114,31 +124,25 @@ pub fn read_terrain(path: &Path, options: &TerrainOptions) -> Result<RawTerrain,
     };
     // Files named `.xyz` have these columns by their name; other text files have to say.
     let by_name: Option<ColumnOrder> = if extension == "xyz" { "xyz".parse().ok() } else { None };
-    let order = options.csv_order.clone();
-    parse(&label, &bytes, format, order.as_ref(), by_name.as_ref())
+    parse(&label, &bytes, &TerrainOptions { format: Some(format), ..options.clone() }, by_name.as_ref())
 }
 
-/// Reads existing ground from bytes; `label` names them in messages, `order` the columns of text without header.
+/// Reads existing ground from bytes; `label` names them in messages. Without a format the content tells it.
 ///
 /// # Errors
 /// As [`read_terrain`].
-pub fn parse_terrain(
-    label: &str,
-    bytes: &[u8],
-    format: InputFormat,
-    order: Option<&ColumnOrder>,
-) -> Result<RawTerrain, ReadError> {
-    parse(label, bytes, format, order, None)
+pub fn parse_terrain(label: &str, bytes: &[u8], options: &TerrainOptions) -> Result<RawTerrain, ReadError> {
+    parse(label, bytes, options, None)
 }
 
-fn parse(
-    label: &str,
-    bytes: &[u8],
-    format: InputFormat,
-    order: Option<&ColumnOrder>,
-    by_name: Option<&ColumnOrder>,
-) -> Result<RawTerrain, ReadError> {
+/// `by_name`: the columns of text without header, where the name of the file says them.
+fn parse(label: &str, bytes: &[u8], options: &TerrainOptions, by_name: Option<&ColumnOrder>) -> Result<RawTerrain, ReadError> {
+    let format = match options.format {
+        Some(format) => format,
+        None => kind::only_by_content(label, bytes)?,
+    };
     kind::check(label, bytes, format)?;
+    let pick = &options.pick;
     // The checksum takes as long as the fast formats themselves.
     let (mut source, read) = rayon::join(
         || super::source(label, format, bytes),
@@ -148,7 +152,13 @@ fn parse(
                 InputFormat::Obj => obj::read(label, bytes, &mut notes),
                 InputFormat::Ply => ply::read(label, bytes, &mut notes),
                 InputFormat::Asc => asc::read(label, bytes, &mut notes),
-                InputFormat::Csv | InputFormat::GeoJson => points::read(label, bytes, order, by_name, &mut notes),
+                InputFormat::LandXml => super::landxml::ground(label, bytes, pick, &mut notes),
+                InputFormat::Dxf => super::dxf::ground(label, bytes, pick, &mut notes),
+                InputFormat::GeoTiff => geotiff::read(label, bytes, &mut notes),
+                InputFormat::Las => las::read(label, bytes, pick, &mut notes),
+                InputFormat::Csv | InputFormat::GeoJson | InputFormat::Gpx => {
+                    points::read(label, bytes, options.csv_order.as_ref(), by_name, &mut notes)
+                }
             };
             ground.map(|(ground, said)| (ground, said, notes))
         },
@@ -156,18 +166,20 @@ fn parse(
     let (ground, said, notes) = read?;
     source.kind = said.kind;
     source.crs = said.crs;
+    source.unit = said.unit;
     Ok(RawTerrain { source, ground, notes })
 }
 
 /// What a ground file says about its coordinates.
-#[derive(Default)]
-struct Said {
-    kind: super::CoordinateKind,
-    crs: Option<String>,
+#[derive(Debug, Default)]
+pub(in crate::read) struct Said {
+    pub(in crate::read) kind: super::CoordinateKind,
+    pub(in crate::read) crs: Option<String>,
+    pub(in crate::read) unit: Option<LengthUnit>,
 }
 
 /// A file refused as a whole.
-fn refuse(what: &str, at: impl Into<String>, figures: impl Into<String>, help: &str) -> ReadError {
+pub(in crate::read) fn refuse(what: &str, at: impl Into<String>, figures: impl Into<String>, help: &str) -> ReadError {
     ReadError::Content { what: what.into(), at: at.into(), figures: figures.into(), help: help.into() }
 }
 

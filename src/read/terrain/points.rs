@@ -19,9 +19,10 @@ pub(super) fn read(
         sha256: String::new(),
         crs: None,
         kind: CoordinateKind::Unknown,
+        unit: None,
     };
     let points = csv::ground(&text, &mut source, (order, by_name), notes)?;
-    Ok((RawGround::Points(points), Said { kind: source.kind, crs: source.crs }))
+    Ok((RawGround::Points(points), Said { kind: source.kind, crs: source.crs, unit: None }))
 }
 
 #[cfg(test)]

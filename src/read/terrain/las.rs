@@ -1,0 +1,11 @@
+//! las.
+
+use super::{RawGround, Said, refuse};
+use crate::model::Note;
+use crate::read::Pick;
+use crate::read::ReadError;
+
+/// Reads ground.
+pub(super) fn read(label: &str, _bytes: &[u8], _pick: &Pick, _notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
+    Err(refuse("las is not read", label, "", ""))
+}
