@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library. Each uses only itself and those before it.
-const ORDER: [&str; 16] = [
+const ORDER: [&str; 18] = [
     "kernel",
     "model",
     "read",
@@ -17,7 +17,9 @@ const ORDER: [&str; 16] = [
     "terrain",
     "overlay",
     "ground",
+    "setout",
     "write",
+    "plot",
     "report",
     "pipeline",
     "cli",

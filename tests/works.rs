@@ -57,7 +57,7 @@ fn build(lines: &[Polyline], cut: f64, fill: f64, terrain: &Terrain, options: &O
     site.build(&designs, options, &())
 }
 
-const FINISHED: Options = Options { allow_open: false, finished: true, stations: None, exactly: false };
+const FINISHED: Options = Options { allow_open: false, finished: true, stations: None, keep: false, exactly: false };
 
 fn plan_area([a, b, c]: [DVec3; 3]) -> f64 {
     0.5 * (b - a).truncate().perp_dot((c - a).truncate())

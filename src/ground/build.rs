@@ -10,7 +10,7 @@ use super::stations::Stations;
 use super::tally::Tally;
 use super::trimmed::Trimmed;
 use super::works::{End, Flood, Sink, Works};
-use super::{Axis, Corner, GroundError, Piece, SectionFigures, Sections, cell};
+use super::{Axis, Corner, GroundError, Piece, Pieces, SectionFigures, Sections, cell};
 use crate::kernel::frame::Frame;
 use crate::kernel::sum::Sum;
 use crate::mesh::volume;
@@ -57,6 +57,8 @@ pub struct Options {
     pub finished: bool,
     /// Distance of stations.
     pub stations: Option<f64>,
+    /// Keep the ground and the pieces of the works, for drawings and setting out.
+    pub keep: bool,
     /// Refuse also slopes that end off the ground by less than the tolerance.
     pub exactly: bool,
 }
@@ -110,6 +112,14 @@ impl<'a> Site<'a> {
     /// # Errors
     /// [`GroundError`]; meshes that fail their check are errors, never a result.
     pub fn build(self, designs: &[Design], options: &Options, watch: &dyn Watch) -> Result<Ground, GroundError> {
+        let mut ground = self.built(designs, options, watch)?;
+        if options.keep {
+            ground.terrain = Some(self.terrain);
+        }
+        Ok(ground)
+    }
+
+    fn built(&self, designs: &[Design], options: &Options, watch: &dyn Watch) -> Result<Ground, GroundError> {
         let whole = designs.iter().any(|d| d.side_of_rings == Side::Inside) && self.line.chains.iter().all(|c| c.closed());
         if !whole {
             let needed = self.as_deep_as_needed(designs, watch)?;
@@ -137,7 +147,7 @@ impl<'a> Site<'a> {
         let patch = self.patch(&shape, whole);
         let mut notes = inspected(&patch, &self.terrain, self.label)?;
         let stations = Stations::new(self.axes(), options.stations)?;
-        let mut feeder = Feeder::new(&shape, &stations);
+        let mut feeder = Feeder::new(&shape, &stations, options.keep);
         let mut works = Flood::run(&shape, &patch, whole, &mut feeder);
         let fed = feeder.finish();
         self.check_covered(&shape, &fed, options)?;
@@ -396,6 +406,8 @@ pub(crate) struct Fed {
     pub(crate) tallied: super::Tallied,
     /// Cross-sections, where stations are wanted.
     pub(crate) sections: Option<SectionFigures>,
+    /// The pieces themselves, where they are to be kept.
+    pub(crate) pieces: Option<Pieces>,
     /// Plan area of each triangle of the design that has been fed.
     pub(crate) covered: Vec<f64>,
 }
@@ -433,14 +445,16 @@ struct Feeder<'a> {
     shape: &'a Shape,
     tally: Tally<'a>,
     sections: Option<Sections<'a>>,
+    pieces: Option<Pieces>,
     covered: Vec<f64>,
     corners: Vec<Corner>,
 }
 
 impl<'a> Feeder<'a> {
-    fn new(shape: &'a Shape, stations: &'a Stations) -> Self {
+    fn new(shape: &'a Shape, stations: &'a Stations, keep: bool) -> Self {
         Self {
             shape,
+            pieces: keep.then(Pieces::default),
             tally: Tally::new(stations),
             sections: stations.spacing().map(|_| Sections::new(stations)),
             covered: vec![0.0; shape.triangles.len()],
@@ -449,7 +463,12 @@ impl<'a> Feeder<'a> {
     }
 
     fn finish(self) -> Fed {
-        Fed { tallied: self.tally.finish(), sections: self.sections.map(Sections::finish), covered: self.covered }
+        Fed {
+            tallied: self.tally.finish(),
+            sections: self.sections.map(Sections::finish),
+            pieces: self.pieces,
+            covered: self.covered,
+        }
     }
 }
 
@@ -475,6 +494,9 @@ impl Sink for Feeder<'_> {
         self.tally.add(&piece);
         if let Some(sections) = &mut self.sections {
             sections.add(&piece);
+        }
+        if let Some(pieces) = &mut self.pieces {
+            pieces.add(&piece);
         }
         let o = corners[0].at;
         let twice: f64 = corners[1..].windows(2).map(|w| (w[0].at - o).perp_dot(w[1].at - o)).sum();

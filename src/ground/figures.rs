@@ -9,7 +9,7 @@ use super::shape::Shape;
 use super::stations::Stations;
 use super::trimmed::Trimmed;
 use super::works::{Border, End, Works};
-use super::{Axis, GroundError, SectionFigures, Tallied};
+use super::{Axis, GroundError, Pieces, SectionFigures, Tallied};
 use crate::kernel::orientation::{Turn, turn};
 use crate::kernel::sum::Sum;
 use crate::mesh::check::{self, HalfEdges, Soundness};
@@ -56,6 +56,10 @@ pub struct Ground {
     pub sections: Option<SectionFigures>,
     /// What stations are counted along, with the ends of the intervals.
     pub stations: Stations,
+    /// The pieces of the works, where they were to be kept.
+    pub pieces: Option<Pieces>,
+    /// The ground as given, where it was to be kept.
+    pub terrain: Option<Terrain>,
     /// Areas of the design.
     pub areas: Areas,
     /// What was measured on the design written.
@@ -115,6 +119,8 @@ pub(crate) fn ground(found: &Found) -> Result<Ground, GroundError> {
         tallied: found.fed.tallied.clone(),
         sections: found.fed.sections.clone(),
         stations: found.stations.clone(),
+        pieces: found.fed.pieces.clone(),
+        terrain: None,
         areas,
         certificate,
         error_bound,

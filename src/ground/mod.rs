@@ -2,6 +2,7 @@
 
 mod build;
 mod cell;
+pub mod depths;
 pub mod end_areas;
 mod error;
 mod figures;
@@ -23,11 +24,12 @@ mod works;
 mod testing;
 
 pub use build::{Options, Site};
+pub use depths::depths;
 pub use end_areas::{CutFill, average_end_area, prismoidal};
 pub use error::GroundError;
 pub use figures::{Daylight, Ground};
 pub use haul::{Haul, mass_haul};
-pub use piece::{Axis, Corner, Piece};
+pub use piece::{Axis, Corner, Piece, Pieces};
 pub use section_slope::{SectionSlope, section_slope};
 pub use sections::{Section, SectionFigures, Sectioned, Sections};
 pub use stations::{MOST_STATIONS, Stations, TooManyStations};

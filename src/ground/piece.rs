@@ -28,6 +28,32 @@ pub struct Piece<'a> {
     pub corners: &'a [Corner],
 }
 
+/// Pieces that were kept, one after the other.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pieces {
+    heads: Vec<(Part, Option<u32>, usize)>,
+    corners: Vec<Corner>,
+}
+
+impl Pieces {
+    /// Keeps a copy of a piece.
+    pub fn add(&mut self, piece: &Piece<'_>) {
+        self.corners.extend_from_slice(piece.corners);
+        self.heads.push((piece.part, piece.axis, self.corners.len()));
+    }
+
+    /// The pieces in the order in which they were added.
+    pub fn iter(&self) -> impl Iterator<Item = Piece<'_>> {
+        let from = std::iter::once(0).chain(self.heads.iter().map(|head| head.2));
+        let piece = |(from, &(part, axis, to)): (usize, &(Part, Option<u32>, usize))| Piece {
+            part,
+            axis,
+            corners: &self.corners[from..to],
+        };
+        from.zip(&self.heads).map(piece)
+    }
+}
+
 /// A line along which stations are counted: a chain of the given line, or the centre line of a road.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {

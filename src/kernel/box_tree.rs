@@ -60,6 +60,23 @@ impl BoxTree {
         (leaf * LEAF).min(self.boxes.len())..((leaf + 1) * LEAF).min(self.boxes.len())
     }
 
+    /// Calls `visit` with the name of every box that meets or touches the box from `lo` to `hi`. The order is the same for the same
+    /// boxes, but means nothing.
+    pub fn meeting(&self, lo: DVec2, hi: DVec2, mut visit: impl FnMut(u32)) {
+        let (leaves, wanted) = (self.nodes.len() / 2, (lo, hi));
+        let mut stack = vec![1];
+        while let Some(n) = stack.pop() {
+            if !meet(&self.nodes[n], &wanted) {
+                continue;
+            }
+            if n < leaves {
+                stack.extend([2 * n + 1, 2 * n]);
+            } else {
+                self.run(n).filter(|&i| meet(&self.boxes[i], &wanted)).for_each(|i| visit(self.names[i]));
+            }
+        }
+    }
+
     /// Calls `visit` once for every pair of boxes that meet or touch, with their names, until it returns `false`. The order is the
     /// same for the same boxes, but means nothing.
     pub fn pairs(&self, mut visit: impl FnMut(u32, u32) -> bool) {
@@ -125,6 +142,14 @@ mod tests {
                 true
             });
             found.sort_unstable();
+            let tree = BoxTree::new(&boxes);
+            for (_, (lo, hi)) in &boxes {
+                let mut met = Vec::new();
+                tree.meeting(*lo, *hi, |name| met.push(name));
+                met.sort_unstable();
+                let all: Vec<u32> = boxes.iter().filter(|(_, other)| meet(other, &(*lo, *hi))).map(|(name, _)| *name).collect();
+                prop_assert_eq!(met, all);
+            }
             let mut expected = Vec::new();
             for (i, (a, first)) in boxes.iter().enumerate() {
                 expected.extend(boxes[i + 1..].iter().filter(|(_, second)| meet(first, second)).map(|(b, _)| (*a, *b)));

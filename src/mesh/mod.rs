@@ -1,6 +1,7 @@
 //! Triangles as such: filling regions between edges, checking a mesh, measuring it.
 
 pub mod check;
+pub mod drape;
 pub mod inside;
 pub mod polygon;
 pub mod quality;

@@ -2,7 +2,9 @@
 
 use super::watch::{CHECKING, Observer, PREPARING, READING, READING_GROUND, Stopwatch, WRITING};
 use super::{BuriedError, Error, Given, GroundInput, LineInput, Wishes, check_steepness, figures, on_ground, read_line};
-use crate::model::{Bulking, Line, LineFeature, Tin};
+use crate::ground::{Pieces, Stations, Tallied};
+use crate::model::{Bulking, Line, LineFeature, Terrain, Tin};
+use crate::plot::{OnGround, Scene};
 use crate::read::Source;
 use crate::report::{CrossfallFigures, Report, ReportFormat};
 use crate::surface;
@@ -66,7 +68,7 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     let mut outputs = Outputs::open(&targets, &inputs)?;
 
     let Given { line, source, unit } = read_line(&job.input, &watch)?;
-    let Product { design, finished, lines, mut report } = match &job.ground {
+    let Product { design, finished, lines, survey, mut report } = match &job.ground {
         Some(ground) => on_ground::build(job, ground, &line, &source, unit, &watch)?,
         None => alone(job, &line, &source, &watch)?,
     };
@@ -78,6 +80,15 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
 
     watch.stage_of(WRITING);
     let crs = source.crs.as_deref();
+    let _scene = Scene {
+        title: &source.label,
+        unit,
+        crs,
+        line: &line,
+        design: &design,
+        lines: &lines,
+        ground: survey.as_ref().map(Survey::scene),
+    };
     let mut put = |index: usize, report: &Report| -> Result<Delivery, WriteError> {
         outputs.write(index, |out| match contents[index] {
             Content::Mesh(format) => format.write(out, &design),
@@ -103,7 +114,30 @@ pub(super) struct Product {
     pub(super) design: Tin,
     pub(super) finished: Option<Tin>,
     pub(super) lines: Vec<LineFeature>,
+    /// What drawings and setting out ask of the ground, where the job [`draws`](BuildJob::draws).
+    pub(super) survey: Option<Survey>,
     pub(super) report: Report,
+}
+
+/// The ground, and the works piece by piece.
+pub(super) struct Survey {
+    pub(super) terrain: Terrain,
+    pub(super) pieces: Pieces,
+    pub(super) stations: Stations,
+    pub(super) tallied: Tallied,
+}
+
+impl Survey {
+    fn scene(&self) -> OnGround<'_> {
+        OnGround { terrain: &self.terrain, pieces: &self.pieces, stations: &self.stations, tallied: &self.tallied }
+    }
+}
+
+impl BuildJob {
+    /// Whether an output needs ground and pieces of the works, beyond meshes, line work and figures.
+    pub(super) fn draws(&self) -> bool {
+        false
+    }
 }
 
 /// Builds without existing ground.
@@ -123,7 +157,7 @@ fn alone(job: &BuildJob, line: &Line, source: &Source, watch: &Stopwatch<'_>) ->
         watch.note(&note);
     }
     let report = figures::report(line, source, &design, &surface, &watch.notes());
-    Ok(Product { design: surface.tin, finished: None, lines: surface.lines, report })
+    Ok(Product { design: surface.tin, finished: None, lines: surface.lines, survey: None, report })
 }
 
 fn surface_error(source: &Source, cause: surface::SurfaceError) -> Error {

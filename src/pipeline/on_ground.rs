@@ -1,6 +1,6 @@
 //! A line on existing ground: read → reach → designs → works → report.
 
-use super::build::{BuildJob, Product};
+use super::build::{BuildJob, Product, Survey};
 use super::watch::Stopwatch;
 use super::{Error, Wishes, check_steepness, figures, ground};
 use crate::ground::{Options, Site};
@@ -45,8 +45,13 @@ pub(super) fn build(
     }
     let mut site = Site::new(line, terrain, &ground_source.label);
     let designs = designs(&job.wishes, &mut site, line, &source.label, watch)?;
-    let options =
-        Options { allow_open: input.allow_open, finished: !job.finished.is_empty(), stations: job.stations, exactly: false };
+    let options = Options {
+        allow_open: input.allow_open,
+        finished: !job.finished.is_empty(),
+        stations: job.stations,
+        keep: job.draws(),
+        exactly: false,
+    };
     let (terrain, area) = (terrain_figures(site.terrain()), site.area());
     let built = site.build(&designs, &options, watch).map_err(|cause| Error::Ground {
         label: source.label.clone(),
@@ -56,7 +61,13 @@ pub(super) fn build(
     built.notes.iter().for_each(|note| watch.note(note));
     let inputs = figures::Inputs { line, source, ground: &ground_source, terrain, area };
     let report = figures::ground_report(&inputs, job, &designs, &built, &watch.notes());
-    Ok(Product { design: built.design, finished: built.finished, lines: built.lines, report })
+    let survey = built.terrain.zip(built.pieces).map(|(terrain, pieces)| Survey {
+        terrain,
+        pieces,
+        stations: built.stations,
+        tallied: built.tallied,
+    });
+    Ok(Product { design: built.design, finished: built.finished, lines: built.lines, survey, report })
 }
 
 /// One design for each sheet, as deep as it can reach ground.

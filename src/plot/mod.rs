@@ -1,0 +1,5 @@
+//! Drawings of a design: plan, profile, cross-sections, mass haul.
+
+mod scene;
+
+pub use scene::{OnGround, Scene};

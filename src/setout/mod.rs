@@ -1,0 +1,1 @@
+//! Setting out: what a crew needs to build the design.
