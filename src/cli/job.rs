@@ -193,6 +193,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         checks.number("--distance", args.distance.as_ref(), Rule::AtLeast(LEAST_LENGTH)).map(Extent::Distance),
     ];
     let interval = checks.number("--interval", args.interval.as_ref(), Rule::Positive);
+    let levels: Vec<f64> = args.level.iter().filter_map(|z| checks.number("--level", Some(z), Rule::Coordinate)).collect();
     let tolerance = checks.number("--tolerance", Some(&args.tolerance), Rule::AtLeast(LEAST_LENGTH));
     if let Some(tolerance) = tolerance {
         input.tolerance = tolerance;
@@ -205,7 +206,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     if args.terrain.is_none() {
         let finished = args.finished.first().map(|name| name.to_string_lossy().into_owned());
         checks.needs_ground(&[
-            ("--stations", args.stations.as_ref()),
+            ("--stations", args.stations.as_ref().filter(|_| args.stakes.is_empty())),
             ("--swell", args.swell.as_ref()),
             ("--shrink", args.shrink.as_ref()),
             ("--finished", finished.as_ref()),
@@ -254,6 +255,10 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     for target in &lines {
         checks.format(ending(target, "line-work file", &["geojson", "json"], "`.geojson` or `.json`"));
     }
+    let stakes = targets(&args.stakes);
+    for target in &stakes {
+        checks.format(ending(target, "table of slope stakes", &["csv"], "`.csv`"));
+    }
     let mut reports = Vec::new();
     for target in targets(&args.report) {
         let format = checks.format(ReportFormat::of(&target));
@@ -264,6 +269,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         .chain(&finished)
         .map(|(t, _)| t)
         .chain(&lines)
+        .chain(&stakes)
         .chain(reports.iter().map(|(t, _)| t))
         .any(|t| *t == Target::Stdout);
     if !used && !args.running.quiet {
@@ -288,7 +294,10 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     });
     let job = tolerance.filter(|_| !slopes.is_empty()).map(|tolerance| BuildJob {
         input,
-        wishes: slopes.into_iter().map(|(slope, sheet)| Wishes { slope, sheet, side, extent, interval, tolerance }).collect(),
+        wishes: slopes
+            .into_iter()
+            .map(|(slope, sheet)| Wishes { slope, sheet, side, extent, interval, levels: levels.clone(), tolerance })
+            .collect(),
         ground,
         reference,
         stations,
@@ -297,6 +306,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         meshes,
         finished,
         lines,
+        stakes,
         reports,
     });
     checks.finish(job)
