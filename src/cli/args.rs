@@ -111,12 +111,15 @@ pub(super) struct BuildArgs {
     /// Write the mesh; .obj or .ply, may be repeated [default: the input's name with .obj, in the working folder]
     #[arg(short, long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) output: Vec<OsString>,
-    /// Write the report; .json or .txt, may be repeated [default: as text to standard output]
+    /// Write the report; .json, .txt or .md, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
     /// Write slope stakes for every --stations and side: hinge, catch point, distances, slope; .csv, may be repeated
     #[arg(long, value_name = "FILE", requires = "stations", help_heading = help::OUTPUT)]
     pub(super) stakes: Vec<OsString>,
+    /// Write the table of stations, all digits; .csv, may be repeated; needs --stations
+    #[arg(long, value_name = "FILE", requires = "stations", help_heading = help::OUTPUT)]
+    pub(super) station_table: Vec<OsString>,
     /// Write level curves, creases, hinge, daylight line and boundary; .geojson, may be repeated
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) lines: Vec<OsString>,
@@ -182,7 +185,7 @@ pub(super) struct VolumeArgs {
     #[arg(long, value_name = "ORDER", help_heading = help::INPUT)]
     pub(super) csv_order: Option<String>,
 
-    /// Write the report; .json or .txt, may be repeated [default: as text to standard output]
+    /// Write the report; .json, .txt or .md, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
 

@@ -259,6 +259,10 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     for target in &stakes {
         checks.format(ending(target, "table of slope stakes", &["csv"], "`.csv`"));
     }
+    let station_tables = targets(&args.station_table);
+    for target in &station_tables {
+        checks.format(ending(target, "table", &["csv"], "`.csv`"));
+    }
     let mut reports = Vec::new();
     for target in targets(&args.report) {
         let format = checks.format(ReportFormat::of(&target));
@@ -270,6 +274,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         .map(|(t, _)| t)
         .chain(&lines)
         .chain(&stakes)
+        .chain(&station_tables)
         .chain(reports.iter().map(|(t, _)| t))
         .any(|t| *t == Target::Stdout);
     if !used && !args.running.quiet {
@@ -307,6 +312,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         finished,
         lines,
         stakes,
+        station_tables,
         reports,
     });
     checks.finish(job)

@@ -6,9 +6,9 @@ use crate::ground::{Pieces, Stations, Tallied, axes};
 use crate::model::{Bulking, Line, LineFeature, Note, Sheet, Terrain, Tin};
 use crate::plot::{OnGround, Scene};
 use crate::read::Source;
-use crate::report::{CrossfallFigures, Report, ReportFormat};
 use crate::setout::{self, Stake};
 use crate::slope::levels::LEVEL_SNAP;
+use crate::report::{CrossfallFigures, Report, ReportFormat, write_station_table};
 use crate::surface;
 use crate::write::{Delivery, MeshFormat, Outputs, Target, WriteError, write_lines, write_stakes};
 use std::path::Path;
@@ -38,6 +38,8 @@ pub struct BuildJob {
     pub lines: Vec<Target>,
     /// Where slope stakes go; they need stations.
     pub stakes: Vec<Target>,
+    /// Where tables of the stations go, as CSV; needs stations.
+    pub station_tables: Vec<Target>,
     /// Where reports go.
     pub reports: Vec<(Target, ReportFormat)>,
 }
@@ -58,6 +60,7 @@ enum Content {
     Finished(MeshFormat),
     Lines,
     Stakes,
+    Stations,
     Report(ReportFormat),
 }
 
@@ -105,6 +108,7 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
             Content::Finished(format) => finished.as_ref().map_or(Ok(()), |tin| format.write(out, tin)),
             Content::Lines => write_lines(out, &lines, crs).map(drop),
             Content::Stakes => write_stakes(out, &stakes),
+            Content::Stations => write_station_table(out, report),
             Content::Report(format) => format.write(out, report),
         })
     };
@@ -207,9 +211,10 @@ fn wanted(job: &BuildJob) -> Vec<(Target, Content)> {
     let meshes = job.meshes.iter().map(|(target, format)| (target.clone(), Content::Mesh(*format)));
     let finished = job.finished.iter().map(|(target, format)| (target.clone(), Content::Finished(*format)));
     let lines = job.lines.iter().map(|target| (target.clone(), Content::Lines));
+    let tables = job.station_tables.iter().map(|target| (target.clone(), Content::Stations));
     let reports = job.reports.iter().map(|(target, format)| (target.clone(), Content::Report(*format)));
     let stakes = job.stakes.iter().map(|target| (target.clone(), Content::Stakes));
-    meshes.chain(finished).chain(lines).chain(stakes).chain(reports).collect()
+    meshes.chain(finished).chain(lines).chain(stakes).chain(tables).chain(reports).collect()
 }
 
 /// The order in which outputs are written. Files first, because they can still be taken back; standard output last; of each kind
