@@ -139,5 +139,5 @@ fn standard_input_and_output() {
     let run = site.run_with("check - --input-format obj --slope 50%", sound.clone());
     assert!(run.done().contains("PASSED: the surface is sound and keeps the slope"));
     let run = site.run_with("check -", sound);
-    assert!(run.done().contains("  input               - (obj, sha256 "), "{}", run.stdout);
+    assert!(run.done().contains("  mesh                - (obj, "), "{}", run.stdout);
 }

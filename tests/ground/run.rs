@@ -1,5 +1,6 @@
 //! Runs of the program, and what they leave.
 
+use crate::common::schema::faults;
 use crate::figures::Figures;
 use crate::site::Site;
 use crate::tin::Ground;
@@ -104,8 +105,10 @@ pub(crate) fn build(site: &Site, more: &str) -> Built {
 pub(crate) fn build_in(folder: &Folder, arguments: &str) -> Built {
     let outputs = "-o design.obj --finished finished.obj --lines lines.geojson --report report.json --quiet";
     folder.run(&format!("build {arguments} {outputs}")).done();
+    let report = serde_json::from_str(&folder.read("report.json")).unwrap();
+    assert_eq!(faults(&report), [""; 0], "{arguments}");
     Built {
-        report: serde_json::from_str(&folder.read("report.json")).unwrap(),
+        report,
         design: Mesh::from_obj(&folder.read("design.obj")),
         finished: Mesh::from_obj(&folder.read("finished.obj")),
         lines: features(&folder.read("lines.geojson")),
