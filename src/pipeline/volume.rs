@@ -186,6 +186,7 @@ fn volumes(found: &Between, against: &Against, existing: &Source) -> BetweenVolu
         net: found.net(),
         sign_rule: SIGN_RULE,
         balance: Balance::of(found.cut, found.fill),
+        complete: found.areas.design_uncovered == 0.0,
         cells: (found.cells > 0).then_some(found.cells),
         reference,
     }

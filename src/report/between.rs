@@ -79,6 +79,8 @@ pub struct BetweenVolumes {
     pub sign_rule: &'static str,
     /// The sign of `net` in a word.
     pub balance: Balance,
+    /// Whether all of the design lies over the existing surface; what does not has no volume: see `areas.uncovered`.
+    pub complete: bool,
     /// Prisms summed up: cells of the common refinement; none against a plane.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cells: Option<usize>,
@@ -260,6 +262,7 @@ pub(super) mod testing {
                 net: 7395.802 - 11_623.03,
                 sign_rule: SIGN_RULE,
                 balance: Balance::of(7395.802, 11_623.03),
+                complete: false,
                 cells: Some(12_345),
                 reference: BetweenReference::Terrain { path: "site/ground.ply".into() },
             },
@@ -293,6 +296,7 @@ pub(super) mod testing {
         report.inputs.truncate(1);
         report.meshes.truncate(1);
         report.volumes.cells = None;
+        report.volumes.complete = true;
         report.volumes.reference = BetweenReference::Plane { elevation: 30.5 };
         report.areas = BetweenAreas { cut: 1.0, ..BetweenAreas::default() };
         report.depths = BetweenDepths::default();

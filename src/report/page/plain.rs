@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 
 /// Columns of a terminal that are used; only names and words of files that cannot be broken go beyond.
 const WIDTH: usize = 100;
+/// Widest column of words: a longer one pushes only its own row aside.
+const WIDEST: usize = 40;
 /// Blanks before the lines below a remark.
 const BELOW: usize = 4;
 
@@ -74,6 +76,9 @@ fn table(text: &mut String, table: &Table) {
             *width = (*width).max(cell.chars().count());
         }
     }
+    for (width, _) in widths.iter_mut().zip(columns()).filter(|(_, column)| column.left) {
+        *width = (*width).min(WIDEST);
+    }
     // First column of each group, and the end.
     let mut firsts = vec![0];
     for group in &table.groups {
@@ -97,7 +102,7 @@ fn table(text: &mut String, table: &Table) {
             end += 1;
         }
         let parts: Vec<usize> = std::iter::once(0).chain(begin..end).collect();
-        part(text, table, &parts, &firsts, &widths, begin == 1);
+        part(text, table, &parts, &firsts, &widths);
         if end >= table.groups.len() {
             break;
         }
@@ -112,7 +117,7 @@ fn across(widths: &[usize]) -> usize {
 }
 
 /// Some groups of a table.
-fn part(text: &mut String, table: &Table, groups: &[usize], firsts: &[usize], widths: &[usize], first: bool) {
+fn part(text: &mut String, table: &Table, groups: &[usize], firsts: &[usize], widths: &[usize]) {
     let columns: Vec<&Column> = table.groups.iter().flat_map(|group| &group.columns).collect();
     let chosen: Vec<usize> = groups.iter().flat_map(|&g| firsts[g]..firsts[g + 1]).collect();
     if groups.iter().any(|&g| !table.groups[g].title.is_empty()) {
@@ -137,8 +142,7 @@ fn part(text: &mut String, table: &Table, groups: &[usize], firsts: &[usize], wi
                 let cells = of(cells);
                 writeln!(text, "{}", format!("  {label:width$}{}", cells.get(width + 2..).unwrap_or_default()).trim_end())
             }
-            Row::Heading(words) if first || groups.len() > 1 => writeln!(text, "  {words}"),
-            Row::Heading(_) => Ok(()),
+            Row::Heading(words) => writeln!(text, "  {words}"),
         };
     }
 }
@@ -167,6 +171,16 @@ mod tests {
         assert_eq!(item(&path), format!("  name                {path}\n"));
         let many = "word ".repeat(100);
         assert!(item(&many).lines().all(|l| l.chars().count() <= WIDTH) && item(&many).matches("word").count() == 100);
+    }
+
+    #[test]
+    fn a_long_name_does_not_widen_the_other_rows() {
+        let columns = vec![Column::words("name"), Column::numbers("count", 6)];
+        let rows = ["a".to_owned(), "b".repeat(5000)].map(|name| Row::Cells(vec![name, "7".to_owned()]));
+        let mut text = String::new();
+        table(&mut text, &Table { groups: vec![Group { title: "", columns }], rows: rows.into() });
+        let widths: Vec<usize> = text.lines().map(str::len).collect();
+        assert_eq!(widths, [50, 50, 5010], "{text}");
     }
 
     #[test]

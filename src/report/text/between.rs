@@ -57,6 +57,7 @@ fn page(report: &BetweenReport) -> Page {
     // What is left of rounding is no deficit.
     let net = if v.net.abs() < ROUNDED { 0.0 } else { v.net };
     page.volume("net (cut − fill)", net, &format!(" {}", v.balance.word()));
+    page.words("complete", if v.complete { "yes" } else { "NO, not all of the design lies over the existing surface" });
     if let Some(cells) = v.cells {
         page.count("prisms", cells);
     }
