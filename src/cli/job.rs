@@ -205,11 +205,13 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     let bulking = checks.bulking(args);
     if args.terrain.is_none() {
         let finished = args.finished.first().map(|name| name.to_string_lossy().into_owned());
+        let table = args.station_table.first().map(|name| name.to_string_lossy().into_owned());
         checks.needs_ground(&[
             ("--stations", args.stations.as_ref().filter(|_| args.stakes.is_empty())),
             ("--swell", args.swell.as_ref()),
             ("--shrink", args.shrink.as_ref()),
             ("--finished", finished.as_ref()),
+            ("--station-table", table.as_ref()),
             ("--allow-open", args.allow_open.then(String::new).as_ref()),
         ]);
     } else if let Some(z) = &args.reference {

@@ -1,4 +1,5 @@
-//! Rows of a report as tables for spreadsheets: CSV after RFC 4180, UTF-8, a header, all digits, a point before decimals.
+//! Rows of a report as tables for spreadsheets: CSV after RFC 4180 but with plain line feeds, UTF-8, a header, all digits,
+//! a point before decimals.
 //!
 //! Names of columns are those of the JSON report, keys within keys joined by `_`. A figure that does not apply is an empty field,
 //! so that the columns are always the same.
@@ -44,7 +45,7 @@ pub const STATION_COLUMNS: [&str; 26] = [
 /// [`EncodeError::ReportNotFinite`] names a figure that is NaN or infinite; [`EncodeError::Io`] from the sink.
 pub fn write_station_table(out: &mut (impl Write + ?Sized), report: &Report) -> Result<(), EncodeError> {
     let unit = report.units.length;
-    let mut text = STATION_COLUMNS.join(",") + LINE_END;
+    let mut text = STATION_COLUMNS.join(",") + "\n";
     let rows = report.stations.iter().flatten().map(|row| (row.chain.as_str(), figures(row)));
     for (number, (chain, figures)) in rows.chain(report.pads.iter().map(|pads| ("", pad(pads)))).enumerate() {
         text += &quoted(chain);
@@ -61,14 +62,11 @@ pub fn write_station_table(out: &mut (impl Write + ?Sized), report: &Report) -> 
                 None => {}
             }
         }
-        text += LINE_END;
+        text.push('\n');
     }
     out.write_all(text.as_bytes())?;
     Ok(())
 }
-
-/// End of a line after RFC 4180.
-const LINE_END: &str = "\r\n";
 
 /// Figures of a row in the order of the columns.
 fn figures(row: &StationRow) -> Vec<Option<f64>> {
@@ -113,7 +111,7 @@ mod tests {
 
     #[test]
     fn the_table_is_pinned() {
-        compare(&table(&on_ground()).replace("\r\n", "\n"), include_str!("../../tests/golden/stations.csv"), "stations.csv");
+        compare(&table(&on_ground()), include_str!("../../tests/golden/stations.csv"), "stations.csv");
     }
 
     /// Every figure of the JSON report is in the column of its name, to the last bit, and no other column has anything.
@@ -167,7 +165,7 @@ mod tests {
 
     #[test]
     fn without_stations_there_is_a_header() {
-        assert_eq!(table(&full()), STATION_COLUMNS.join(",") + "\r\n");
+        assert_eq!(table(&full()), STATION_COLUMNS.join(",") + "\n");
     }
 
     #[test]

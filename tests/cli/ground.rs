@@ -99,6 +99,7 @@ fn options_that_go_with_ground() {
     let site = site();
     for (job, told) in [
         ("--finished f.obj", "`--finished` needs existing ground"),
+        ("--stations 5 --stakes s.csv --station-table t.csv", "`--station-table` needs existing ground"),
         ("--direction auto", "the direction `auto` needs existing ground"),
         ("--terrain points.csv --reference 3", "volumes are taken against the existing ground"),
         ("--terrain points.csv --side inside", "slopes inside a ring need a direction"),
@@ -118,12 +119,12 @@ fn stations_as_a_table() {
     assert!(text.done().contains("\nStations ("), "{}", text.stdout);
     let table = site.read("s.csv");
     let report: serde_json::Value = serde_json::from_str(&site.read("r.json")).unwrap();
-    let mut rows = table.split("\r\n");
+    let mut rows = table.lines();
     let header: Vec<&str> = rows.next().unwrap().split(',').collect();
     let column = |name: &str| header.iter().position(|&n| n == name).unwrap();
     let stations = report["stations"].as_array().unwrap();
     // 16 round the pad: breaks at 5, 10 and 15, and the pad itself.
-    assert_eq!((stations.len(), table.matches("\r\n").count()), (4, 6));
+    assert_eq!((stations.len(), table.lines().count()), (4, 6));
     let mut fill = 0.0;
     for (row, station) in rows.zip(stations.iter().chain([&report["pads"]])) {
         let fields: Vec<&str> = row.split(',').collect();
