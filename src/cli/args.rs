@@ -90,7 +90,7 @@ pub(super) struct BuildArgs {
     /// Accept slopes that end without meeting the ground, and platforms partly beside it
     #[arg(long, help_heading = help::SURFACE)]
     pub(super) allow_open: bool,
-    /// Write the whole ground with the works in it: .obj or .ply
+    /// Write the whole ground with the works in it, in any format of -o; may be repeated
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) finished: Vec<OsString>,
     /// Cut and fill for every D along the line, with cross-sections and the running net; stations of slope stakes
@@ -108,7 +108,8 @@ pub(super) struct BuildArgs {
     #[arg(long, help_heading = help::SURFACE)]
     pub(super) strict: bool,
 
-    /// Write the mesh; .obj or .ply, may be repeated [default: the input's name with .obj, in the working folder]
+    /// Write the mesh: .obj, .ply, .xml (LandXML), .dxf, .stl or .glb; may be repeated [default: the input's name with .obj, in
+    /// the working folder]
     #[arg(short, long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) output: Vec<OsString>,
     /// Write the report; .json, .txt or .md, may be repeated [default: as text to standard output]
@@ -120,9 +121,23 @@ pub(super) struct BuildArgs {
     /// Write the table of stations, all digits; .csv, may be repeated; needs --stations
     #[arg(long, value_name = "FILE", requires = "stations", help_heading = help::OUTPUT)]
     pub(super) station_table: Vec<OsString>,
-    /// Write level curves, creases, hinge, daylight line and boundary; .geojson, may be repeated
+    /// Write level curves, creases, hinge, daylight line and boundary: .geojson, .xml (LandXML) or .dxf; may be repeated
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) lines: Vec<OsString>,
+    /// Count the coordinates of meshes for viewers (.obj, .ply, .stl, .glb) from a point near them, told in FILE.origin.json
+    ///
+    /// Alone or with `auto` a round point south-west of the mesh. STL and GLB are always written like this. LandXML and DXF keep
+    /// world coordinates.
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "auto",
+        allow_hyphen_values = true,
+        help_heading = help::OUTPUT
+    )]
+    pub(super) local_origin: Option<String>,
 
     #[command(flatten)]
     pub(super) running: Running,

@@ -4,12 +4,14 @@ use super::args::{BuildArgs, DirectionArg, FormatArg, InputArgs, Running, Sample
 use super::number::{self, Rule};
 use crate::formation::{Crossfall, Formation};
 use crate::model::{Bulking, Extent, LengthUnit, Sheet, Side, Slope};
-use crate::pipeline::{Against, Area, BuildJob, GroundInput, Lattice, LineInput, SampleJob, VolumeJob, Where, Wishes};
+use crate::pipeline::{
+    Against, Area, BuildJob, GroundInput, Lattice, LineInput, LocalOrigin, SampleJob, VolumeJob, Where, Wishes,
+};
 use crate::read::terrain::TerrainOptions;
 use crate::read::{ColumnOrder, InputFormat, Pick, ReadOptions};
 use crate::report::ReportFormat;
-use crate::write::{MeshFormat, Target, UnknownFormat};
-use glam::DVec2;
+use crate::write::{LineFormat, MeshFormat, Target, UnknownFormat};
+use glam::{DVec2, DVec3};
 use std::ffi::{OsStr, OsString};
 use std::fmt;
 use std::path::Path;
@@ -253,9 +255,10 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         let format = checks.format(MeshFormat::of(&target));
         finished.extend(format.map(|format| (target, format)));
     }
-    let lines = targets(&args.lines);
-    for target in &lines {
-        checks.format(ending(target, "line-work file", &["geojson", "json"], "`.geojson` or `.json`"));
+    let mut lines = Vec::new();
+    for target in targets(&args.lines) {
+        let format = checks.format(LineFormat::of(&target));
+        lines.extend(format.map(|format| (target, format)));
     }
     let stakes = targets(&args.stakes);
     for target in &stakes {
@@ -265,6 +268,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     for target in &station_tables {
         checks.format(ending(target, "table", &["csv"], "`.csv`"));
     }
+    let origin = args.local_origin.as_ref().and_then(|text| checks.take(local_origin(text)));
     let mut reports = Vec::new();
     for target in targets(&args.report) {
         let format = checks.format(ReportFormat::of(&target));
@@ -274,7 +278,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         .iter()
         .chain(&finished)
         .map(|(t, _)| t)
-        .chain(&lines)
+        .chain(lines.iter().map(|(t, _)| t))
         .chain(&stakes)
         .chain(&station_tables)
         .chain(reports.iter().map(|(t, _)| t))
@@ -315,6 +319,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         lines,
         stakes,
         station_tables,
+        local_origin: origin,
         reports,
     });
     checks.finish(job)
@@ -414,6 +419,23 @@ fn ending(target: &Target, what: &'static str, known: &[&str], phrase: &'static 
     let found = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
     let fits = found.is_some_and(|found| known.contains(&found.as_str()));
     if fits || target.is_stream() { Ok(()) } else { Err(UnknownFormat { what, path: path.clone(), known: phrase }) }
+}
+
+/// Reads `X,Y,Z` or `auto`.
+fn local_origin(text: &str) -> Result<LocalOrigin, String> {
+    if text.eq_ignore_ascii_case("auto") {
+        return Ok(LocalOrigin::Auto);
+    }
+    let fields: Vec<&str> = text.split(',').collect();
+    if fields.len() != 3 {
+        return Err(format!(
+            "an origin has three numbers\n  --> --local-origin={text}\n   \
+             = help: give `--local-origin=X,Y,Z`, decimals behind a point, or `--local-origin` alone"
+        ));
+    }
+    let numbers =
+        fields.iter().map(|field| number::read("--local-origin", field, Rule::Coordinate)).collect::<Result<Vec<f64>, _>>()?;
+    Ok(LocalOrigin::At(DVec3::from_slice(&numbers)))
 }
 
 /// Reads `XMIN,YMIN,XMAX,YMAX`.
