@@ -156,6 +156,7 @@ fn document(
         materials.push(material(part, by_depth));
         offset += 12 * triangles;
     }
+    document["nodes"][0]["mesh"] = json!(0);
     document["buffers"] = json!([{ "byteLength": binary }]);
     document["bufferViews"] = views.into();
     document["accessors"] = accessors.into();
@@ -224,7 +225,7 @@ mod tests {
             assert_eq!(extras["origin"], json!([5e5, 5.4e6, 0.0]));
             assert_eq!((extras["crs"].as_str(), extras["unit"].as_str()), (Some("EPSG:25832"), Some("m")));
         }
-        assert_eq!(json["nodes"][0]["name"], "a \"b\"");
+        assert_eq!((json["nodes"][0]["name"].as_str(), json["nodes"][0]["mesh"].as_u64()), (Some("a \"b\""), Some(0)));
         let indices: Vec<u32> = binary[48..].chunks_exact(4).map(|b| u32::from_le_bytes(b.try_into().unwrap())).collect();
         assert_eq!(indices, [0, 1, 2, 0, 2, 3]);
         let names: Vec<&str> = json["materials"].as_array().unwrap().iter().map(|m| m["name"].as_str().unwrap()).collect();
