@@ -107,7 +107,9 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     let names = Names::of(job);
     let earthworks = report.volumes.as_ref().filter(|_| job.ground.is_some());
     let earthworks = earthworks.map(|v| Earthworks { ground: &names.ground, cut: v.cut, fill: v.fill });
-    let crs = source.crs.as_deref();
+    // Of the line, else of the ground.
+    let crs = report.inputs.iter().find_map(|input| input.crs.clone());
+    let crs = crs.as_deref();
     let _scene = Scene {
         title: &source.label,
         unit,

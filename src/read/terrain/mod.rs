@@ -1,6 +1,7 @@
 //! Existing ground: bytes → raw meshes, points and grids, in world coordinates and in the order of the file.
 
 mod asc;
+mod comments;
 mod geotiff;
 mod kind;
 mod las;
