@@ -4,6 +4,7 @@ mod build;
 mod check;
 #[path = "../common/mod.rs"]
 mod common;
+mod formats;
 mod golden;
 mod ground;
 mod help;
