@@ -1,6 +1,6 @@
 //! The main job: a line to a surface, its files and its report.
 
-use super::heads::{LocalOrigin, Names, coarse, is_local, local_origin};
+use super::heads::{LocalOrigin, Names, coarse, has_colours, heights_over, is_local, local_origin};
 use super::watch::{CHECKING, Observer, PREPARING, READING, READING_GROUND, Stopwatch, WRITING};
 use super::{BuriedError, Error, Given, GroundInput, LineInput, Wishes, check_steepness, figures, on_ground, read_line};
 use crate::ground::{Pieces, Stations, Tallied, axes};
@@ -121,11 +121,13 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     };
     let head = Head { crs, unit, name: &names.design, lines: &lines, earthworks, origin: None, depths: None };
     let about = |format: MeshFormat| Head { origin: Some(local).filter(|_| is_local(job, format)), ..head };
+    let over_ground = |tin: &Tin| survey.as_ref().filter(|_| has_colours(job)).and_then(|s| heights_over(tin, &s.terrain));
+    let (depths, finished_depths) = (over_ground(&design), finished.as_ref().and_then(over_ground));
     let mut put = |index: usize, report: &Report| -> Result<Delivery, WriteError> {
         outputs.write(index, |out| match contents[index] {
-            Content::Mesh(format) => format.write(out, &design, &about(format)),
+            Content::Mesh(format) => format.write(out, &design, &Head { depths: depths.as_deref(), ..about(format) }),
             Content::Finished(format) => {
-                let head = Head { name: &names.finished, ..about(format) };
+                let head = Head { name: &names.finished, depths: finished_depths.as_deref(), ..about(format) };
                 finished.as_ref().map_or(Ok(()), |tin| format.write(out, tin, &head))
             }
             Content::Lines(format) => format.write(out, &head),
@@ -204,7 +206,7 @@ impl Survey {
 impl BuildJob {
     /// Whether an output needs ground and pieces of the works, beyond meshes, line work and figures.
     pub(super) fn draws(&self) -> bool {
-        !self.stakes.is_empty()
+        !self.stakes.is_empty() || has_colours(self)
     }
 }
 

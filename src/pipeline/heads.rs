@@ -1,7 +1,8 @@
 //! What the heads of files tell: names of surfaces, and the point that coordinates are counted from.
 
 use super::BuildJob;
-use crate::model::{Note, Tin};
+use crate::ground::depths;
+use crate::model::{Note, Part, Terrain, Tin};
 use crate::write::{MeshFormat, ROUNDING, origin};
 use glam::DVec3;
 use std::path::Path;
@@ -26,6 +27,30 @@ pub(super) fn local_origin(job: &BuildJob, design: &Tin, finished: Option<&Tin>)
 /// Whether a mesh of this format is about a local origin.
 pub(super) fn is_local(job: &BuildJob, format: MeshFormat) -> bool {
     format.is_single() || job.local_origin.is_some() && format.takes_origin()
+}
+
+/// Whether a mesh is coloured by its height over ground.
+pub(super) fn has_colours(job: &BuildJob) -> bool {
+    job.ground.is_some() && job.meshes.iter().chain(&job.finished).any(|(_, format)| *format == MeshFormat::Glb)
+}
+
+/// Height over ground of the vertices of the works; NaN at those of ground alone. `None` if the two are in different frames.
+pub(super) fn heights_over(tin: &Tin, ground: &Terrain) -> Option<Vec<f64>> {
+    if tin.frame != ground.frame {
+        return None;
+    }
+    let mut of_works = vec![false; tin.vertices.len()];
+    for (triangle, _) in tin.triangles.iter().zip(&tin.parts).filter(|(_, part)| **part != Part::Ground) {
+        triangle.iter().for_each(|&v| of_works[v as usize] = true);
+    }
+    let numbers: Vec<usize> = (0..of_works.len()).filter(|&v| of_works[v]).collect();
+    let vertices = numbers.iter().map(|&v| tin.vertices[v]).collect();
+    let works = Tin { frame: tin.frame, vertices, triangles: Vec::new(), parts: Vec::new() };
+    let mut heights = vec![f64::NAN; tin.vertices.len()];
+    for (v, height) in numbers.into_iter().zip(depths(&works, ground)) {
+        heights[v] = height;
+    }
+    Some(heights)
 }
 
 /// Names of the surfaces in the files that hold names.

@@ -37,7 +37,7 @@ pub fn write_glb(out: &mut (impl Write + ?Sized), tin: &Tin, head: &Head<'_>) ->
     let counts = Part::ALL.map(|part| tin.parts.iter().filter(|p| **p == part).count());
     let (vertices, triangles) = (tin.vertices.len(), counts.iter().sum::<usize>());
     let binary = vertices * if depths.is_some() { 16 } else { 12 } + triangles * 12;
-    let mut json = serde_json::to_vec(&document(tin, head, origin, depths.is_some(), &counts, binary)?)?;
+    let mut json = serde_json::to_vec(&document(tin, head, origin, depths, &counts, binary)?)?;
     json.resize(json.len().next_multiple_of(4), b' ');
     let total = 12 + 8 + json.len() + if triangles == 0 { 0 } else { 8 + binary };
     let Ok(short) = u32::try_from(total) else {
@@ -78,9 +78,14 @@ fn position(tin: &Tin, i: usize, origin: DVec3) -> Result<[[u8; 4]; 3], EncodeEr
     Ok([single::bytes(east, i + 1)?, single::bytes(up, i + 1)?, single::bytes(-north, i + 1)?])
 }
 
+/// Greatest height over ground or depth below it.
+fn deepest(depths: &[f64]) -> f64 {
+    depths.iter().filter(|d| d.is_finite()).fold(0.0, |most: f64, d| most.max(d.abs()))
+}
+
 /// A colour for each depth: red, green, blue as shares of light, and no transparency.
 fn colours(depths: &[f64]) -> impl Iterator<Item = [u8; 4]> {
-    let deepest = depths.iter().filter(|d| d.is_finite()).fold(0.0, |most: f64, d| most.max(d.abs()));
+    let deepest = deepest(depths);
     let light = std::array::from_fn::<u8, 256, _>(|value| (255.0 * palette::linear(value as u8)).round() as u8);
     depths.iter().map(move |&depth| {
         let [red, green, blue] = palette::of_depth(depth, deepest).map(|value| light[usize::from(value)]);
@@ -93,7 +98,7 @@ fn document(
     tin: &Tin,
     head: &Head<'_>,
     origin: DVec3,
-    coloured: bool,
+    depths: Option<&[f64]>,
     counts: &[usize; 4],
     binary: usize,
 ) -> Result<Value, EncodeError> {
@@ -104,6 +109,11 @@ fn document(
     if let Some(crs) = head.crs {
         extras.insert("crs".into(), crs.into());
     }
+    if let Some(depths) = depths {
+        extras.insert("colours".into(), "red: cut, blue: fill, white: none; full at the depth_scale".into());
+        extras.insert("depth_scale".into(), json!(deepest(depths)));
+    }
+    let coloured = depths.is_some();
     let mut node = json!({ "name": head.name, "extras": extras });
     if head.unit != LengthUnit::Metre {
         let metres = head.unit.metres();
@@ -248,6 +258,7 @@ mod tests {
         let primitives = json["meshes"][0]["primitives"].as_array().unwrap();
         assert_eq!(primitives[0]["attributes"]["COLOR_0"], 1);
         assert!(primitives[1]["attributes"].get("COLOR_0").is_none());
+        assert_eq!(json["nodes"][0]["extras"]["depth_scale"], 3.0);
         // sRGB (178, 24, 43), (247, 247, 247), (33, 102, 172), (158, 158, 158) as shares of light times 255.
         let expected = [[114, 2, 6, 255], [237, 237, 237, 255], [4, 34, 105, 255], [87, 87, 87, 255]];
         assert_eq!(binary[48..64], expected.concat());

@@ -167,6 +167,30 @@ fn every_format_holds_the_same_mesh() {
         alike(&shifted(&triangles, from), &in_parts, MILLIMETRE);
         assert_eq!(json["asset"]["extras"]["origin"], serde_json::json!(from));
     }
+    colours(&site);
+}
+
+/// The works are white where they meet the ground, and as deep in colour as they are in cut and fill.
+fn colours(site: &Site) {
+    let report = site.run(&format!("{ROAD} --report -")).done().to_owned();
+    let deepest = |what: &str| -> f64 {
+        let line = report.lines().find(|line| line.trim().starts_with(what)).unwrap_or_else(|| panic!("{what}: {report}"));
+        line.split_whitespace().find_map(|word| word.parse().ok()).unwrap()
+    };
+    let (cut, fill) = (deepest("deepest cut"), deepest("deepest fill"));
+    let bytes = fs::read(site.path("w.glb")).unwrap();
+    let (_, json) = glb(site, "w.glb");
+    let scale = json["nodes"][0]["extras"]["depth_scale"].as_f64().unwrap();
+    assert!(scale <= cut.max(fill) + 0.0005 && scale > 0.95 * cut.max(fill), "{scale} {cut} {fill}");
+    let count = json["accessors"][1]["count"].as_u64().unwrap() as usize;
+    let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
+    let colours: Vec<[u8; 4]> = bytes[28 + length + 12 * count..28 + length + 16 * count].as_chunks().0.to_vec();
+    // White, and the ends of the scale, as shares of light.
+    assert!(colours.iter().filter(|c| **c == [237, 237, 237, 255]).count() > 100);
+    let end = if cut > fill { [114, 2, 6, 255] } else { [4, 34, 105, 255] };
+    let redder = |c: &[u8; 4]| i32::from(c[0]) - i32::from(c[2]);
+    let (reddest, bluest) = (colours.iter().map(redder).max().unwrap(), colours.iter().map(redder).min().unwrap());
+    assert!(colours.contains(&end) && reddest > 90 && bluest < -90, "{reddest} {bluest}");
 }
 
 /// The figures of the report stand in the surface file.
