@@ -217,4 +217,39 @@ mod tests {
         );
         assert!(LineFormat::of(&Target::File("a.obj".into())).is_err());
     }
+
+    proptest::proptest! {
+        /// Whatever an input calls its reference system, the files stay files.
+        #[test]
+        fn any_name_of_a_reference_system_is_carried(crs: String, name: String) {
+            let tin = testing::awkward_tin(2);
+            let head = Head { crs: Some(&crs), name: &name, ..Head::default() };
+            let written = |format: MeshFormat| {
+                let mut bytes = Vec::new();
+                format.write(&mut bytes, &tin, &head).unwrap();
+                bytes
+            };
+            assert_eq!(testing::read_obj(&written(MeshFormat::Obj)).1.len(), tin.triangles.len());
+            assert_eq!(testing::read_ply(&written(MeshFormat::Ply)).1.len(), tin.triangles.len());
+            let drawing = String::from_utf8(written(MeshFormat::Dxf)).unwrap();
+            let codes: Vec<u32> = drawing.lines().step_by(2).map(|line| line.parse().unwrap()).collect();
+            // Both corners of the box, then a point of each face.
+            assert_eq!(codes.iter().filter(|code| **code == 10).count(), 2 + tin.triangles.len());
+            let document = String::from_utf8(written(MeshFormat::LandXml)).unwrap();
+            let mut reader = quick_xml::Reader::from_str(&document);
+            let (mut faces, mut names) = (0, Vec::new());
+            loop {
+                match reader.read_event().unwrap() {
+                    quick_xml::events::Event::Start(e) if e.name().as_ref() == "Surface" => {
+                        let attribute = e.attributes().next().unwrap().unwrap();
+                        names.push(quick_xml::escape::unescape(&attribute.value).unwrap().into_owned());
+                    }
+                    quick_xml::events::Event::Start(e) => faces += usize::from(e.name().as_ref() == "F"),
+                    quick_xml::events::Event::Eof => break,
+                    _ => {}
+                }
+            }
+            assert_eq!((faces, names), (tin.triangles.len(), vec![head::plain(&name).into_owned()]));
+        }
+    }
 }

@@ -7,6 +7,9 @@ use glam::DVec3;
 /// Comment lines looked at; what a program says of a file stands in its first lines.
 const MOST_LINES: usize = 100;
 
+/// Furthest origin believed, in the length unit: coordinates beyond are refused everywhere.
+const FURTHEST: f64 = 1e9;
+
 /// What was said.
 #[derive(Default)]
 pub(super) struct Spoken {
@@ -41,7 +44,8 @@ impl Spoken {
             } else if let Some(unit) = after("unit") {
                 spoken.unit = unit.parse().ok();
             } else if let Some(numbers) = after("local origin") {
-                let mut numbers = numbers.split_whitespace().map_while(|word| word.parse().ok()).filter(|n: &f64| n.is_finite());
+                let number = |word: &str| word.parse().ok().filter(|n: &f64| n.abs() <= FURTHEST);
+                let mut numbers = numbers.split_whitespace().map_while(number);
                 let origin = [numbers.next(), numbers.next(), numbers.next()];
                 spoken.origin = if let [Some(x), Some(y), Some(z)] = origin { Some(DVec3::new(x, y, z)) } else { None };
             }
@@ -94,6 +98,7 @@ mod tests {
             "# local origin: 1 2",
             "# local origin: 1 x 3",
             "# local origin: 1 inf 3",
+            "# local origin: 1e300 2 3",
         ] {
             let spoken = Spoken::of_obj(text.as_bytes());
             assert!(spoken.crs.is_none() && spoken.unit.is_none() && spoken.origin.is_none(), "{text}");
