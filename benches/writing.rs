@@ -2,6 +2,8 @@
 //!
 //! `cargo bench --bench writing`
 
+#![allow(clippy::print_stdout, reason = "the table is the product")]
+
 use glam::{DVec2, DVec3};
 use slopegen::kernel::frame::Frame;
 use slopegen::model::{Part, Tin};
