@@ -79,7 +79,8 @@ pub(super) fn coarse(job: &BuildJob, design: &Tin, finished: Option<&Tin>, local
     let (target, _) = job.meshes.iter().chain(&job.finished).find(|(_, format)| format.is_single())?;
     let points = std::iter::once(design).chain(finished).flat_map(|tin| (0..tin.vertices.len()).map(|i| tin.world(i)));
     let furthest = points.map(|p| (p - local).abs().max_element()).fold(0.0, f64::max);
-    let error = furthest * ROUNDING;
+    // The step between neighbouring numbers is the same from one power of two to the next.
+    let error = furthest.log2().floor().exp2() * ROUNDING;
     (error > TOLD).then(|| {
         let message = format!(
             "coordinates in `{target}` are off by up to {error:.4}: it holds single-precision numbers, up to {furthest:.0} from its \

@@ -325,8 +325,8 @@ fn origins_that_are_none_are_refused() {
 fn lost_digits_are_told() {
     let site = Site::new();
     let run = site.run("build road.geojson --slope 1:2 -o a.stl --local-origin=0,0,0 --report r.json");
-    // 5.4 million times half the step of single precision, 2⁻²⁴.
-    assert!(run.stderr.contains("[single-precision]: coordinates in `a.stl` are off by up to 0.32"), "{}", run.stderr);
+    // From 2²² to 2²³ numbers of 24 bits are 2⁻¹ apart.
+    assert!(run.stderr.contains("[single-precision]: coordinates in `a.stl` are off by up to 0.2500"), "{}", run.stderr);
     assert!(site.read("r.json").contains("\"single-precision\""));
     let run = site.run("build road.geojson --slope 1:2 -o b.stl -o c.glb");
     assert!(!run.stderr.contains("single-precision"), "{}", run.stderr);
