@@ -123,7 +123,7 @@ impl Checks {
             }))
         });
         let pick = Pick { features: args.feature.clone(), layers: args.layer.clone(), ..Pick::default() };
-        let options = ReadOptions { format, csv_order, pick, ..ReadOptions::default() };
+        let options = ReadOptions { format, csv_order, pick, unit, ..ReadOptions::default() };
         LineInput { path: args.input.clone(), options, closed: args.closed, formation, unit, tolerance }
     }
 
@@ -284,6 +284,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     }
 
     let extent = extent.into_iter().flatten().next();
+    let unit = input.unit;
     let csv_order = checks.order("--terrain-order", args.terrain_order.as_ref());
     let ground = args.terrain.as_ref().map(|path| GroundInput {
         path: path.clone(),
@@ -296,6 +297,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
                 classes: args.class.clone(),
                 ..Pick::default()
             },
+            unit,
         },
         allow_open: args.allow_open,
     });

@@ -1,5 +1,6 @@
 //! Bytes → raw records with positions. Nothing is judged here beyond what a record needs to be read.
 
+mod alignment;
 mod columns;
 mod csv;
 mod decimal;
@@ -205,14 +206,16 @@ pub struct ReadOptions {
     pub csv_order: Option<ColumnOrder>,
     /// What is meant of a file that holds several things.
     pub pick: Pick,
-    /// How far the chords of arcs, clothoids and vertical curves may lie off them, in the length unit of the file; positive.
+    /// How far the chords of arcs, clothoids and vertical curves may lie off them; positive. In `unit`, else in that of the file.
     pub chord: f64,
+    /// Unit that was asked for: that of files that should declare one and do not.
+    pub unit: Option<LengthUnit>,
 }
 
 impl Default for ReadOptions {
     /// Nothing known, everything taken, chords within [`DEFAULT_CHORD`].
     fn default() -> Self {
-        Self { format: None, csv_order: None, pick: Pick::default(), chord: DEFAULT_CHORD }
+        Self { format: None, csv_order: None, pick: Pick::default(), chord: DEFAULT_CHORD, unit: None }
     }
 }
 
