@@ -184,6 +184,15 @@ pub(super) struct VolumeArgs {
     /// Columns of text files of points without a header, such as xyz or pnezd
     #[arg(long, value_name = "ORDER", help_heading = help::INPUT)]
     pub(super) csv_order: Option<String>,
+    /// Which surface of a LandXML file with several of them is the first one given
+    #[arg(long, value_name = "NAME", help_heading = help::INPUT)]
+    pub(super) surface: Option<String>,
+    /// Which surface of a LandXML file with several of them is the one before the works
+    #[arg(long, value_name = "NAME", requires = "existing", help_heading = help::INPUT)]
+    pub(super) existing_surface: Option<String>,
+    /// Unit of the figures, and of files that declare none: m, ft (0.3048 m) or us-ft (1200/3937 m) [default: that of the first file, else m]
+    #[arg(long, value_name = "UNIT", help_heading = help::INPUT)]
+    pub(super) units: Option<String>,
 
     /// Write the report; .json, .txt or .md, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]

@@ -241,14 +241,14 @@ mod tests {
         assert!(Element::arc_of_radius(50.0, E, E, true, false).is_none());
     }
 
-    /// The end of a clothoid from a straight into a circle of radius `r`, by the series of the handbooks: x = L − L⁵/(40 A⁴) + …,
-    /// y = L³/(6 A²) − L⁷/(336 A⁶) + …, with A² = r L.
+    /// The end of a clothoid from a straight into a circle of radius `r`, by the series of the handbooks with τ = L / (2 r):
+    /// x = L (1 − τ²/10 + τ⁴/216 − τ⁶/9360 + …), y = L (τ/3 − τ³/42 + τ⁵/1320 − τ⁷/75600 + …).
     #[test]
     fn clothoids_of_both_turns_and_ways() {
         let (r, l): (f64, f64) = (200.0, 60.0);
-        let a2 = r * l;
-        let x = l - l.powi(5) / (40.0 * a2.powi(2)) + l.powi(9) / (3456.0 * a2.powi(4));
-        let y = l.powi(3) / (6.0 * a2) - l.powi(7) / (336.0 * a2.powi(3)) + l.powi(11) / (42_240.0 * a2.powi(5));
+        let t = l / (2.0 * r);
+        let x = l * (1.0 - t.powi(2) / 10.0 + t.powi(4) / 216.0 - t.powi(6) / 9360.0);
+        let y = l * (t / 3.0 - t.powi(3) / 42.0 + t.powi(5) / 1320.0 - t.powi(7) / 75_600.0);
         for turn in [1.0, -1.0] {
             let start = DVec2::from_angle(0.7);
             let end = E + start.rotate(DVec2::new(x, turn * y));

@@ -79,7 +79,7 @@ impl Profile {
         if points.len() < 2 {
             return Err(ProfileError::TooFew);
         }
-        if let Some([a, b]) = points.array_windows::<2>().find(|[a, b]| b.station <= a.station) {
+        if let Some((a, b)) = points.iter().zip(&points[1..]).find(|(a, b)| b.station <= a.station) {
             return Err(ProfileError::Order(a.station, b.station));
         }
         if let Some(end) = [first, last].into_iter().find(|end| end.curve != Curve::Break) {
@@ -89,7 +89,8 @@ impl Profile {
         let mut stretches = Vec::new();
         // Where the last curve ended.
         let mut from = first.station;
-        for [before, at, after] in points.array_windows::<3>() {
+        for three in points.windows(3) {
+            let [before, at, after] = three else { continue };
             let (entry, exit) = (grade(before, at), grade(at, after));
             let curve = curve(at, entry, exit)?;
             let begin = curve.first().map_or(at.station, |stretch| stretch.from);

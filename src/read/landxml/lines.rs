@@ -39,6 +39,9 @@ pub(super) struct Maker<'a> {
     left: usize,
 }
 
+/// A point in plan, and its height if it has one.
+type Placed = (DVec2, Option<f64>);
+
 /// An element that does not fit what is declared of it.
 struct Worst {
     misfit: Misfit,
@@ -171,11 +174,11 @@ impl<'a> Maker<'a> {
         let (element, heights) = match &part.shape {
             Shape::Points(points) => {
                 let points = points.iter().map(|point| self.point(point, part.at)).collect::<Result<Vec<_>, _>>()?;
-                let straight = |[(from, a), (to, b)]: [(DVec2, Option<f64>); 2]| Piece {
-                    element: Element::Straight { from, to },
-                    heights: [a, b],
+                let straight = |(from, to): (&Placed, &Placed)| Piece {
+                    element: Element::Straight { from: from.0, to: to.0 },
+                    heights: [from.1, to.1],
                 };
-                let pieces: Vec<Piece> = points.array_windows::<2>().map(|pair| straight(*pair)).collect();
+                let pieces: Vec<Piece> = points.iter().zip(points.iter().skip(1)).map(straight).collect();
                 if let ([piece], Some(declared)) = (pieces.as_slice(), declared) {
                     check(Misfit { given: piece.element.length(), computed: declared }, "the length of a line")?;
                 }
@@ -251,7 +254,7 @@ impl<'a> Maker<'a> {
     }
 
     /// A point in the unit of the scale.
-    fn point(&self, point: &Point, at: usize) -> Result<(DVec2, Option<f64>), ReadError> {
+    fn point(&self, point: &Point, at: usize) -> Result<Placed, ReadError> {
         let mut point = point;
         for _ in 0..MOST_NAMES {
             match point {

@@ -15,7 +15,6 @@ mod units;
 mod walk;
 mod xml;
 
-
 use super::terrain::{RawFaces, RawGround, Said, refuse};
 use super::{ColumnOrder, Pick, RawLine, ReadError, ReadOptions, Source};
 use crate::model::{LengthUnit, Note};
