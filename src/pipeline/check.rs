@@ -84,6 +84,7 @@ pub fn check(job: &CheckJob, observer: &dyn Observer) -> Result<Looked, Error> {
 
 fn look(raw: RawMesh, options: &Options, watch: &Stopwatch<'_>) -> CheckReport {
     let input = figures::input("mesh", &raw.source);
+    let units = raw.source.unit.unwrap_or_default().into();
     let count = raw.faces.len();
     let (triangles, faces) = match raw.faces {
         RawFaces::Triangles(triangles) => (triangles, Vec::new()),
@@ -104,7 +105,7 @@ fn look(raw: RawMesh, options: &Options, watch: &Stopwatch<'_>) -> CheckReport {
     let warnings = watch.notes().into_iter().map(warn).collect();
     let size = (raw.vertices.len(), count, triangles.len());
     let checked = Checked { vertices: size.0, faces: size.1, triangles: size.2, names: &raw.names, options };
-    CheckReport::new(input, &checked, &quality, warnings)
+    CheckReport { units, ..CheckReport::new(input, &checked, &quality, warnings) }
 }
 
 /// Faces as triangles, and the face each is of. Faces that cannot be split properly, because their outline crosses itself, are

@@ -98,7 +98,7 @@ fn by_name<'f>(label: &str, found: &'f [Feature], pick: &Pick) -> Result<Vec<Cho
 fn listed(found: &[Feature]) -> String {
     let mut names: Vec<String> = Vec::new();
     let mut more = 0;
-    for feature in found {
+    for feature in Kind::ALL.into_iter().flat_map(|kind| found.iter().filter(move |feature| feature.kind == kind)) {
         let text = feature.text();
         if names.contains(&text) {
             continue;

@@ -1,6 +1,6 @@
 //! Meshes to be looked at as they are, with whatever is wrong with them.
 
-use super::{InputFormat, Pick, RawFaces, ReadError, Source, kind, obj, ply, refuse};
+use super::{InputFormat, Pick, RawFaces, ReadError, Said, Source, kind, obj, ply, refuse};
 use crate::model::{LengthUnit, Note, Part};
 use crate::read::landxml::{self, Known};
 use glam::DVec3;
@@ -59,10 +59,10 @@ pub(super) fn parse_mesh(label: &str, bytes: &[u8], format: InputFormat, pick: &
     }
     kind::check(label, bytes, format)?;
     // The checksum takes as long as the fast formats themselves.
-    let (source, read) = rayon::join(
+    let (mut source, read) = rayon::join(
         || crate::read::source(label, format, bytes),
         || {
-            let mut notes = Vec::new();
+            let (mut notes, mut said) = (Vec::new(), Said::default());
             let read = match format {
                 InputFormat::Ply => ply::load(label, bytes, &mut notes).map(|loaded| {
                     let named = loaded.parts.iter().map(|&part| part_name(part)).collect::<Vec<_>>();
@@ -72,7 +72,10 @@ pub(super) fn parse_mesh(label: &str, bytes: &[u8], format: InputFormat, pick: &
                     // Units do not matter for what is looked at.
                     let known = Known { pick, order: None, unit: Some(LengthUnit::default()) };
                     let read = landxml::mesh(label, bytes, known, &mut notes);
-                    read.map(|(vertices, faces, _)| (vertices, Some(faces), (Vec::new(), Vec::new())))
+                    read.map(|(vertices, faces, of_file)| {
+                        said = of_file;
+                        (vertices, Some(faces), (Vec::new(), Vec::new()))
+                    })
                 }
                 _ => obj::load(label, bytes, &mut notes).map(|loaded| {
                     let count = loaded.faces.as_ref().map_or(0, RawFaces::len);
@@ -80,10 +83,12 @@ pub(super) fn parse_mesh(label: &str, bytes: &[u8], format: InputFormat, pick: &
                     (loaded.vertices, loaded.faces, groups)
                 }),
             };
-            read.map(|read| (read, notes))
+            read.map(|read| (read, said, notes))
         },
     );
-    let ((vertices, faces, (groups, names)), notes) = read?;
+    let ((vertices, faces, (groups, names)), said, notes) = read?;
+    source.crs = said.crs;
+    source.unit = said.unit;
     let faces = faces.unwrap_or(RawFaces::Triangles(Vec::new()));
     Ok(RawMesh { source, vertices, faces, groups, names, notes })
 }
@@ -167,7 +172,10 @@ mod tests {
     #[test]
     fn what_is_no_mesh_is_refused() {
         let error = parse_mesh("a.csv", b"1 2 3", InputFormat::Csv, &Pick::default()).unwrap_err().to_string();
-        assert_eq!(error, "the file is no mesh\n  --> a.csv\n   = its format is `csv`\n   = help: give a mesh as OBJ, PLY or LandXML");
+        assert_eq!(
+            error,
+            "the file is no mesh\n  --> a.csv\n   = its format is `csv`\n   = help: give a mesh as OBJ, PLY or LandXML"
+        );
         let error = parse_mesh("a.obj", b"v 0 0 0\nf 1 1 2\n", InputFormat::Obj, &Pick::default()).unwrap_err().to_string();
         assert!(error.contains("line 2"));
     }
