@@ -14,6 +14,9 @@ use glam::DVec3;
 /// How many things a message lists.
 pub(super) const LISTED: usize = 20;
 
+/// Half a unit of the last digit, and a little for the rounding of that half itself.
+const HALF: f64 = 0.501;
+
 /// What a surface says about itself, in the units of the file: the number and half a unit of its last digit.
 #[derive(Clone, Copy, Debug, Default)]
 struct Declared {
@@ -126,7 +129,7 @@ impl<'p> Surfaces<'p> {
             let Some(value) = xml.number(tag, name)? else { return Ok(None) };
             let text = xml.attribute(tag, name)?.unwrap_or_default();
             let decimals = text.split_once('.').map_or(0, |(_, digits)| digits.len().min(15));
-            Ok(Some((value, 0.5 / 10_f64.powi(decimals as i32))))
+            Ok(Some((value, HALF / 10_f64.powi(decimals as i32))))
         };
         surface.declared = Declared { area: figure("area2DSurf")?, lowest: figure("elevMin")?, highest: figure("elevMax")? };
         while let Some(part) = xml.child()? {

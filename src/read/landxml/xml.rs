@@ -94,7 +94,10 @@ impl<'a> Xml<'a> {
 
     /// The next tag or piece of content; comments and instructions among them.
     fn next(&mut self) -> Result<Event<'a>, ReadError> {
-        let event = self.reader.read_event().map_err(|cause| self.damaged(&cause.to_string()))?;
+        let event = self.reader.read_event().map_err(|cause| {
+            let at = self.reader.error_position().min(self.reader.buffer_position()) as usize;
+            self.damaged(at, &cause.to_string())
+        })?;
         match &event {
             Event::Start(_) => {
                 self.depth += 1;
@@ -195,10 +198,11 @@ impl<'a> Xml<'a> {
     pub(super) fn attribute(&self, tag: &Tag<'a>, name: &str) -> Result<Option<String>, ReadError> {
         // Without checks: those for repeated names take the square of their number.
         for attribute in tag.start.attributes().with_checks(false) {
-            let attribute = attribute.map_err(|cause| self.damaged(&cause.to_string()))?;
+            let attribute = attribute.map_err(|cause| self.damaged(tag.at, &cause.to_string()))?;
             if attribute.key.into_inner() == name {
-                let value =
-                    attribute.normalized_value(XmlVersion::Implicit1_0).map_err(|cause| self.damaged(&cause.to_string()))?;
+                let value = attribute
+                    .normalized_value(XmlVersion::Implicit1_0)
+                    .map_err(|cause| self.damaged(tag.at, &cause.to_string()))?;
                 let value = value.trim();
                 return Ok((!value.is_empty()).then(|| value.to_owned()));
             }
@@ -238,8 +242,7 @@ impl<'a> Xml<'a> {
         refuse(what, self.place(at), figures, help)
     }
 
-    fn damaged(&self, cause: &str) -> ReadError {
-        let at = self.reader.error_position().min(self.reader.buffer_position()) as usize;
+    fn damaged(&self, at: usize, cause: &str) -> ReadError {
         self.refuse("the file is damaged or cut off", at, cause, "export or copy the file again")
     }
 }
