@@ -140,7 +140,7 @@ impl<'a> Xml<'a> {
         Ok(event)
     }
 
-    /// The next start tag, at any depth; `Ok(None)` in its place when an element ends. `Err(None)` at the end of the file.
+    /// What comes next: the beginning or the end of an element, at any depth, or the end of the file.
     pub(super) fn step(&mut self) -> Result<Step<'a>, ReadError> {
         loop {
             match self.next()? {
