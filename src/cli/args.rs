@@ -188,7 +188,7 @@ pub(super) struct VolumeArgs {
     #[arg(long, value_name = "NAME", help_heading = help::INPUT)]
     pub(super) surface: Option<String>,
     /// Which surface of a LandXML file with several of them is the one before the works
-    #[arg(long, value_name = "NAME", requires = "existing", help_heading = help::INPUT)]
+    #[arg(long, value_name = "NAME", conflicts_with = "to_elevation", help_heading = help::INPUT)]
     pub(super) existing_surface: Option<String>,
     /// Unit of the figures, and of files that declare none: m, ft (0.3048 m) or us-ft (1200/3937 m) [default: that of the first file, else m]
     #[arg(long, value_name = "UNIT", help_heading = help::INPUT)]

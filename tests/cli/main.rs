@@ -7,6 +7,7 @@ mod common;
 mod golden;
 mod ground;
 mod help;
+mod landxml;
 mod messages;
 mod sample;
 mod streams;

@@ -41,7 +41,7 @@ const RUNS: [Run; 8] = [
     Run { length: 55.0, from: -1.0 / 90.0, to: -1.0 / 90.0 },
     Run { length: 20.0, from: 0.0, to: 0.0 },
 ];
-const START: DVec2 = DVec2::new(500_000.0, 5_400_000.0);
+pub(super) const START: DVec2 = DVec2::new(500_000.0, 5_400_000.0);
 const ANGLE: f64 = 0.4;
 /// Station of the beginning.
 const STATION: f64 = 1250.0;
@@ -55,7 +55,7 @@ fn ne(p: DVec2) -> String {
 }
 
 /// The alignment as LandXML.
-fn alignment() -> String {
+pub(super) fn alignment() -> String {
     let (mut at, mut angle) = (START, ANGLE);
     let mut text = String::new();
     for run in &RUNS {

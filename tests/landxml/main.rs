@@ -3,6 +3,7 @@
 mod hostile;
 mod lines;
 mod real;
+mod site;
 mod surfaces;
 
 use slopegen::model::Note;
