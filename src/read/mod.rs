@@ -247,7 +247,7 @@ pub fn parse_line(label: &str, bytes: &[u8], options: &ReadOptions) -> Result<Ra
     let format = options.format.unwrap_or(InputFormat::GeoJson);
     let mut notes = Vec::new();
     let mut source = source(label, format, bytes);
-    let lines = match format {
+    let mut lines = match format {
         InputFormat::GeoJson => geojson::lines(&decode::text(label, bytes, &mut notes)?, &mut source, &mut notes)?,
         InputFormat::Csv => {
             csv::lines(&decode::text(label, bytes, &mut notes)?, &mut source, options.csv_order.as_ref(), &mut notes)?
@@ -259,6 +259,9 @@ pub fn parse_line(label: &str, bytes: &[u8], options: &ReadOptions) -> Result<Ra
             return Err(no_line(label, format));
         }
     };
+    if matches!(format, InputFormat::GeoJson | InputFormat::Csv) {
+        lines = options.pick.named(label, lines)?;
+    }
     Ok(RawInput { source, lines, notes })
 }
 

@@ -145,6 +145,22 @@ fn absurd_figures() {
     assert!(message.contains("take too many points") && message.contains(&CHORD.to_string()), "{message}");
 }
 
+/// One element with many attributes and a long name, and many lines in it.
+#[test]
+fn many_lines_of_one_element() {
+    let attributes: String = (0..50_000).fold(String::new(), |text, i| text + " a" + &i.to_string() + "=\"1\"");
+    let line = "<CoordGeom><Line><Start>0 0 0</Start><End>0 1 0</End></Line></CoordGeom>";
+    let begun = Instant::now();
+    for name in [String::new(), format!(" name=\"{}\"", "n".repeat(1_000_000))] {
+        let raw = lines(file(&format!("<PlanFeature{attributes}{name}>{}</PlanFeature>", line.repeat(20_000))), &[]).unwrap();
+        assert_eq!(raw.lines.len(), 20_000);
+        assert!(raw.lines[7].name.as_ref().is_none_or(|name| name.len() < 1000));
+        // One note for each line would drown all others.
+        assert!(raw.notes.len() < 10, "{}", raw.notes.len());
+    }
+    assert!(begun.elapsed() < Duration::from_secs(30), "{:?}", begun.elapsed());
+}
+
 /// Many elements and many vertical curves: their product must not matter.
 #[test]
 fn many_elements_and_many_curves() {

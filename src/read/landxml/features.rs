@@ -2,7 +2,7 @@
 
 use super::coord_geom::{Order, Part, Point, Shape};
 use super::numbers::{few, list};
-use super::walk::Visitor;
+use super::walk::{Open, Visitor, named};
 use super::xml::{Tag, Xml};
 use crate::read::ReadError;
 use crate::read::terrain::clip;
@@ -144,7 +144,7 @@ impl Features {
     }
 
     fn breakline<'a>(&mut self, xml: &mut Xml<'a>, tag: &Tag<'a>) -> Result<(), ReadError> {
-        let name = xml.attribute(tag, "name")?;
+        let name = named(xml, tag)?;
         let mut points = Vec::new();
         while let Some(part) = xml.child()? {
             match part.name() {
@@ -160,7 +160,7 @@ impl Features {
     }
 
     fn alignment<'a>(&mut self, xml: &mut Xml<'a>, tag: &Tag<'a>) -> Result<(), ReadError> {
-        let name = xml.attribute(tag, "name")?;
+        let name = named(xml, tag)?;
         let start = xml.number(tag, "staStart")?.unwrap_or(0.0);
         let mut road = Road { start, length: xml.number(tag, "length")?, ..Road::default() };
         let mut parts = Vec::new();
@@ -185,19 +185,19 @@ impl Features {
 }
 
 impl<'a> Visitor<'a> for Features {
-    fn element(&mut self, xml: &mut Xml<'a>, tag: &Tag<'a>, around: &[Tag<'a>]) -> Result<bool, ReadError> {
+    fn element(&mut self, xml: &mut Xml<'a>, tag: &Tag<'a>, around: &[Open<'a>]) -> Result<bool, ReadError> {
         match tag.name() {
             "Alignment" => self.alignment(xml, tag)?,
             "CgPoint" => self.named_point(xml, tag)?,
             "Breakline" => self.breakline(xml, tag)?,
             "CoordGeom" => {
                 let parent = around.last();
-                let kind = if parent.is_some_and(|parent| parent.name() == "Parcel") { Kind::Parcel } else { Kind::Plan };
+                let kind = if parent.is_some_and(|parent| parent.tag.name() == "Parcel") { Kind::Parcel } else { Kind::Plan };
                 let name = match parent {
-                    Some(parent) => xml.attribute(parent, "name")?,
+                    Some(parent) => parent.name(xml)?,
                     None => None,
                 };
-                let name = name.or(xml.attribute(tag, "name")?);
+                let name = name.or(named(xml, tag)?);
                 let parts = self.order.elements(xml)?;
                 if !parts.is_empty() {
                     self.add(kind, name, tag.at, parts, Road::default());
@@ -226,7 +226,7 @@ fn profiles(xml: &mut Xml<'_>, out: &mut Vec<Heights>) -> Result<(), ReadError> 
                 continue;
             }
         };
-        let name = xml.attribute(&tag, "name")?;
+        let name = named(xml, &tag)?;
         let mut points = Vec::new();
         while let Some(part) = xml.child()? {
             let curve = match part.name() {

@@ -61,11 +61,31 @@ pub(super) fn lines(
     // The chord is in the unit of the run, if one was asked for.
     let chord = options.chord * options.unit.map_or(1.0, |unit| unit.per(scale.unit));
     let mut maker = lines::Maker::new(&label, &text, &features, scale, chord);
-    let mut lines = Vec::new();
+    let (mut lines, mut told) = (Vec::new(), Vec::new());
     for chosen in &chosen {
-        lines.extend(maker.make(chosen, notes)?);
+        lines.extend(maker.make(chosen, &mut told)?);
     }
+    thin(told, notes);
     Ok(lines)
+}
+
+/// The first few notes of each code, and how many more there are.
+fn thin(told: Vec<Note>, notes: &mut Vec<Note>) {
+    const MOST: usize = 5;
+    let mut counts: Vec<(&'static str, usize)> = Vec::new();
+    for note in told {
+        let at = counts.iter().position(|(code, _)| *code == note.code).unwrap_or(counts.len());
+        if at == counts.len() {
+            counts.push((note.code, 0));
+        }
+        counts[at].1 += 1;
+        if counts[at].1 <= MOST {
+            notes.push(note);
+        }
+    }
+    for (code, count) in counts.into_iter().filter(|(_, count)| *count > MOST) {
+        notes.push(Note::new(code, format!("and {} more lines of which the same is to be said", count - MOST)));
+    }
 }
 
 /// Ground of a LandXML file: one surface. Without faces its points, unless breaklines would be lost.

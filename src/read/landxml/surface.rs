@@ -3,7 +3,7 @@
 use super::faces::{IdError, Mesh};
 use super::numbers::{few, fields};
 use super::units::{Header, Scale};
-use super::walk::Visitor;
+use super::walk::{Open, Visitor, named};
 use super::xml::{Tag, Xml, place};
 use crate::kernel::sum::Sum;
 use crate::model::Note;
@@ -104,7 +104,7 @@ impl<'p> Surfaces<'p> {
     }
 
     fn surface<'a>(&mut self, xml: &mut Xml<'a>, tag: &Tag<'a>) -> Result<(), ReadError> {
-        let name = xml.attribute(tag, "name")?.unwrap_or_default();
+        let name = named(xml, tag)?.unwrap_or_default();
         let keep = match self.wanted {
             Some(wanted) => wanted == name,
             // The second one is an error: only its figures are wanted.
@@ -171,7 +171,7 @@ impl<'p> Surfaces<'p> {
 }
 
 impl<'a> Visitor<'a> for Surfaces<'_> {
-    fn element(&mut self, xml: &mut Xml<'a>, tag: &Tag<'a>, _around: &[Tag<'a>]) -> Result<bool, ReadError> {
+    fn element(&mut self, xml: &mut Xml<'a>, tag: &Tag<'a>, _around: &[Open<'a>]) -> Result<bool, ReadError> {
         let ours = tag.name() == "Surface";
         if ours {
             self.surface(xml, tag)?;
