@@ -349,6 +349,12 @@ fn which_lines_are_taken() {
          `toe`, breakline `flat`\n   = help: say which ones with `--feature NAME`; it may be repeated"
     );
     assert_eq!(names(&lines(&both, &["axis"]).unwrap().lines), ["axis"]);
+    // One that is empty does not stand in the way of others.
+    let empty = both.replace("</Alignments>", "<Alignment name=\"draft\"/></Alignments>").replace("PlanFeature", "Parcel");
+    let raw = lines(&empty, &[]).unwrap();
+    assert_eq!(names(&raw.lines), ["axis"]);
+    assert!(raw.notes[0].message.ends_with("left: 1 alignment, 2 breaklines, 1 parcel, 1 surface"), "{}", raw.notes[0].message);
+    assert!(lines(&empty, &["draft"]).unwrap_err().contains("alignment `draft` has no elements"));
     // Any element with a CoordGeom is a line.
     assert_eq!(names(&lines(several().replace("Parcel", "FeatureLine"), &[]).unwrap().lines), ["Lot 1"]);
     let message = lines(&both, &["axis", "nix"]).unwrap_err();

@@ -59,7 +59,9 @@ pub(super) fn choose<'f>(
 }
 
 fn by_kind<'f>(label: &str, found: &'f [Feature]) -> Result<Vec<Chosen<'f>>, ReadError> {
-    let of = |kind| found.iter().filter(move |feature| feature.kind == kind);
+    // Alignments without elements are taken only where there is nothing else: the message tells what they lack.
+    let empty = found.iter().all(|feature| feature.parts.is_empty());
+    let of = |kind| found.iter().filter(move |feature| feature.kind == kind && (empty || !feature.parts.is_empty()));
     let some = |kind| of(kind).next().is_some();
     if some(Kind::Alignment) && some(Kind::Plan) {
         let help = "say which ones with `--feature NAME`; it may be repeated";
