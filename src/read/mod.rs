@@ -202,7 +202,7 @@ pub struct RawPoints {
 pub struct ReadOptions {
     /// Its format; `None`: from the extension. Needed for standard input.
     pub format: Option<InputFormat>,
-    /// The columns of a text file without header.
+    /// The columns of a text file without header; for LandXML `enz`, if easting comes first in it.
     pub csv_order: Option<ColumnOrder>,
     /// What is meant of a file that holds several things.
     pub pick: Pick,

@@ -145,6 +145,36 @@ fn absurd_figures() {
     assert!(message.contains("take too many points") && message.contains(&CHORD.to_string()), "{message}");
 }
 
+/// Coordinates whose squares are beyond all doubles: read or not, no line comes of them.
+#[test]
+fn coordinates_beyond_all() {
+    for (centre, end) in
+        [("0 1e200", "1e200 1e200 5"), ("1e308 0", "-1e308 0 0"), ("0 0", "1e308 -1e308 1e308"), ("0 1e-320", "0 2e-320 1")]
+    {
+        for element in ["Curve rot=\"cw\"", "Spiral rot=\"cw\" length=\"1e150\" radiusStart=\"1e150\" radiusEnd=\"INF\"", "Line"]
+        {
+            let name = element.split(' ').next().unwrap();
+            let text = file(&format!(
+                "<PlanFeature><CoordGeom><{element}><Start>0 0 0</Start><Center>{centre}</Center><End>{end}</End></{name}></CoordGeom></PlanFeature>"
+            ));
+            if let Ok(raw) = lines(&text, &[]) {
+                let checked = slopegen::validate::check(&raw, &Default::default());
+                assert!(checked.is_err() || name == "Line" && !end.contains("308"), "{text}");
+            }
+        }
+    }
+}
+
+/// Every line with a note that names its place: finding places must not take the square of their number.
+#[test]
+fn many_notes() {
+    let feature = "<PlanFeature name=\"p\"><CoordGeom><Line length=\"1.01\"><Start>0 0 0</Start><End>0 1 0</End></Line></CoordGeom></PlanFeature>\n";
+    let begun = Instant::now();
+    let raw = lines(file(&feature.repeat(60_000)), &[]).unwrap();
+    assert_eq!(raw.notes.iter().filter(|note| note.code == "landxml-misfit").count(), 6);
+    assert!(begun.elapsed() < Duration::from_secs(30), "{:?}", begun.elapsed());
+}
+
 /// One element with many attributes and a long name, and many lines in it.
 #[test]
 fn many_lines_of_one_element() {

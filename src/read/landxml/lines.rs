@@ -24,6 +24,9 @@ const REFUSED: (f64, f64) = (0.1, 0.01);
 /// Least cosine of the angle between the tangent of a spiral and the line to its point of intersection: one degree.
 const TANGENT: f64 = 0.999_847_695_156_391_3;
 
+/// Places told in notes.
+const MOST_PLACES: usize = 20;
+
 /// Points that name points that name points: no further than this.
 const MOST_NAMES: usize = 16;
 
@@ -37,6 +40,8 @@ pub(super) struct Maker<'a> {
     pub(super) chord: f64,
     /// Points that curves may still be resolved into.
     left: usize,
+    /// Places that may still be told in notes: finding the line of one takes a look through the whole file.
+    places: usize,
 }
 
 /// A point in plan, and its height if it has one.
@@ -51,7 +56,7 @@ struct Worst {
 
 impl<'a> Maker<'a> {
     pub(super) fn new(label: &'a str, text: &'a str, features: &'a Features, scale: Scale, chord: f64) -> Self {
-        Self { label, text, features, scale, chord, left: MOST_POINTS }
+        Self { label, text, features, scale, chord, left: MOST_POINTS, places: MOST_PLACES }
     }
 
     fn refuse(&self, what: &str, at: usize, figures: impl Into<String>, help: &str) -> ReadError {
@@ -71,14 +76,18 @@ impl<'a> Maker<'a> {
             return Err(self.refuse(&what, feature.at, figures, "export it with its CoordGeom"));
         }
         let mut worst = None;
-        let mut runs = self.runs(feature, &mut worst, notes)?;
+        let runs = self.runs(feature, &mut worst, notes)?;
         if let Some(Worst { misfit, what, at }) = worst {
+            let at = match self.places {
+                0 => String::new(),
+                _ => format!(" ({})", place(self.label, self.text, at)),
+            };
+            self.places = self.places.saturating_sub(1);
             let message = format!(
-                "{}: {what} by its coordinates is {:.4}, by its other figures {:.4} ({})",
+                "{}: {what} by its coordinates is {:.4}, by its other figures {:.4}{at}",
                 feature.text(),
                 misfit.given,
-                misfit.computed,
-                place(self.label, self.text, at)
+                misfit.computed
             );
             notes.push(Note::new("landxml-misfit", message));
         }
@@ -86,7 +95,7 @@ impl<'a> Maker<'a> {
             RawLine { name: feature.name.clone(), feature: Some(feature.number), shape: RawShape::Line, vertices: Vec::new() };
         let profile = self.profile(chosen, &runs)?;
         let mut lines = Vec::new();
-        for run in &mut runs {
+        for run in &runs {
             let points = match &profile {
                 None => alignment::sample(run, alignment::Heights::Own, self.chord, &mut self.left),
                 Some((profile, at)) => {

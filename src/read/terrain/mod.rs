@@ -21,7 +21,7 @@ use std::path::Path;
 pub struct TerrainOptions {
     /// Its format; `None`: from the extension, else from the content. [`InputFormat::GeoJson`] is no format of ground.
     pub format: Option<InputFormat>,
-    /// The columns of a text file without header.
+    /// The columns of a text file without header; for LandXML `enz`, if easting comes first in it.
     pub csv_order: Option<ColumnOrder>,
     /// What is meant of a file that holds several things.
     pub pick: Pick,
