@@ -153,7 +153,7 @@ impl<'p> Surfaces<'p> {
                 xml.skip()?;
                 continue;
             };
-            let Some(id) = xml.attribute(&tag, "id")? else {
+            let Some(id) = xml.value(&tag, "id")? else {
                 return Err(xml.refuse("a point of the surface has no id", tag.at, "<P> without id", "export the file again"));
             };
             let text = xml.content()?;
@@ -379,7 +379,7 @@ fn hidden<'a>(xml: &Xml<'a>, tag: &Tag<'a>) -> Result<bool, ReadError> {
     if !tag.has_attributes() {
         return Ok(false);
     }
-    Ok(matches!(xml.attribute(tag, "i")?.as_deref(), Some("1" | "true")))
+    Ok(matches!(xml.value(tag, "i")?.as_deref(), Some("1" | "true")))
 }
 
 /// Where the visible face of this number stands, of the surface that begins at `surface`.

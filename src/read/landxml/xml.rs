@@ -195,7 +195,19 @@ impl<'a> Xml<'a> {
     }
 
     /// The value of an attribute of a tag, trimmed; `None` if it has none of that name or nothing but blanks.
+    ///
+    /// # Errors
+    /// If the tag is damaged, or an entity in the value is not known.
     pub(super) fn attribute(&self, tag: &Tag<'a>, name: &str) -> Result<Option<String>, ReadError> {
+        self.value(tag, name).map(|value| value.map(Cow::into_owned))
+    }
+
+    /// As [`Self::attribute`], without a copy.
+    ///
+    /// # Errors
+    /// As [`Self::attribute`].
+    #[inline]
+    pub(super) fn value<'t>(&self, tag: &'t Tag<'a>, name: &str) -> Result<Option<Cow<'t, str>>, ReadError> {
         // Without checks: those for repeated names take the square of their number.
         for attribute in tag.start.attributes().with_checks(false) {
             let attribute = attribute.map_err(|cause| self.damaged(tag.at, &cause.to_string()))?;
@@ -203,8 +215,11 @@ impl<'a> Xml<'a> {
                 let value = attribute
                     .normalized_value(XmlVersion::Implicit1_0)
                     .map_err(|cause| self.damaged(tag.at, &cause.to_string()))?;
-                let value = value.trim();
-                return Ok((!value.is_empty()).then(|| value.to_owned()));
+                let value = match value {
+                    Cow::Borrowed(value) => Cow::Borrowed(value.trim()),
+                    Cow::Owned(value) => Cow::Owned(value.trim().to_owned()),
+                };
+                return Ok((!value.is_empty()).then_some(value));
             }
         }
         Ok(None)
