@@ -26,7 +26,7 @@ const ORDER: [&str; 18] = [
 ];
 
 /// Packages that stay at the edge, with the modules that may name them.
-const EDGE: [(&str, &[&str]); 9] = [
+const EDGE: [(&str, &[&str]); 10] = [
     ("anyhow", &["cli", "main"]),
     ("clap", &["cli", "main"]),
     ("indicatif", &["cli"]),
@@ -36,6 +36,7 @@ const EDGE: [(&str, &[&str]); 9] = [
     ("spade", &["mesh", "terrain"]),
     ("tobj", &["read"]),
     ("tempfile", &["write"]),
+    ("quick_xml", &["read"]),
 ];
 
 /// The one file that may turn doubles into single-precision numbers, for formats that hold no others.

@@ -72,7 +72,7 @@ pub(super) struct BuildArgs {
     /// Take volumes against the plane at elevation Z [default: where the slopes end]; not with --terrain
     #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = help::SURFACE)]
     pub(super) reference: Option<String>,
-    /// Existing ground: .obj, .ply, .csv, .xyz, .txt or .asc; slopes then end where they meet it
+    /// Existing ground: .obj, .ply, .xml (LandXML), .csv, .xyz, .txt or .asc; slopes then end where they meet it
     #[arg(long, value_name = "FILE", help_heading = help::INPUT)]
     pub(super) terrain: Option<PathBuf>,
     /// Columns of a ground of points without a header, such as xyz or pnezd
@@ -184,7 +184,7 @@ pub(super) struct SampleArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct VolumeArgs {
-    /// The surface after the works: .obj, .ply, .asc, or points as .csv, .txt, .xyz; with --to-elevation the surface before
+    /// The surface after the works: .obj, .ply, .xml (LandXML), .asc, or points as .csv, .txt, .xyz; with --to-elevation the surface before
     #[arg(value_name = "DESIGN")]
     pub(super) design: PathBuf,
     /// The surface before the works, in any of these formats
@@ -199,6 +199,15 @@ pub(super) struct VolumeArgs {
     /// Columns of text files of points without a header, such as xyz or pnezd
     #[arg(long, value_name = "ORDER", help_heading = help::INPUT)]
     pub(super) csv_order: Option<String>,
+    /// Which surface of a LandXML file with several of them is the first one given
+    #[arg(long, value_name = "NAME", help_heading = help::INPUT)]
+    pub(super) surface: Option<String>,
+    /// Which surface of a LandXML file with several of them is the one before the works
+    #[arg(long, value_name = "NAME", conflicts_with = "to_elevation", help_heading = help::INPUT)]
+    pub(super) existing_surface: Option<String>,
+    /// Unit of the figures, and of files that declare none: m, ft (0.3048 m) or us-ft (1200/3937 m) [default: that of the first file, else m]
+    #[arg(long, value_name = "UNIT", help_heading = help::INPUT)]
+    pub(super) units: Option<String>,
 
     /// Write the report; .json, .txt or .md, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
@@ -210,7 +219,7 @@ pub(super) struct VolumeArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct InputArgs {
-    /// The line: .geojson, .json, .csv, .txt, .tsv or .xyz; - is standard input
+    /// The line: .geojson, .json, .csv, .txt, .tsv, .xyz or LandXML (.xml); - is standard input
     #[arg(value_name = "INPUT")]
     pub(super) input: PathBuf,
     /// Format of the input [default: by its extension]

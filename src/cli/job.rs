@@ -118,15 +118,18 @@ impl Checks {
         let csv_order = self.order("--csv-order", args.csv_order.as_ref());
         let tolerance = DEFAULT_TOLERANCE;
         let formation = self.formation(args, tolerance);
-        let unit = args.units.as_ref().and_then(|text| {
-            self.take(text.parse::<LengthUnit>().map_err(|error| match error.split_once("; ") {
-                Some((what, help)) => format!("{what}\n  --> --units {text}\n   = help: {help}"),
-                None => error,
-            }))
-        });
+        let unit = self.unit(args.units.as_ref());
         let pick = Pick { features: args.feature.clone(), layers: args.layer.clone(), ..Pick::default() };
-        let options = ReadOptions { format, csv_order, pick, ..ReadOptions::default() };
+        let options = ReadOptions { format, csv_order, pick, unit, ..ReadOptions::default() };
         LineInput { path: args.input.clone(), options, closed: args.closed, formation, unit, tolerance }
+    }
+
+    fn unit(&mut self, text: Option<&String>) -> Option<LengthUnit> {
+        let text = text?;
+        self.take(text.parse::<LengthUnit>().map_err(|error| match error.split_once("; ") {
+            Some((what, help)) => format!("{what}\n  --> --units {text}\n   = help: {help}"),
+            None => error,
+        }))
     }
 
     fn formation(&mut self, args: &InputArgs, tolerance: f64) -> Option<Formation> {
@@ -288,6 +291,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     }
 
     let extent = extent.into_iter().flatten().next();
+    let unit = input.unit;
     let csv_order = checks.order("--terrain-order", args.terrain_order.as_ref());
     let ground = args.terrain.as_ref().map(|path| GroundInput {
         path: path.clone(),
@@ -300,6 +304,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
                 classes: args.class.clone(),
                 ..Pick::default()
             },
+            unit,
         },
         allow_open: args.allow_open,
     });
@@ -384,7 +389,11 @@ pub(super) fn volume_job(args: &VolumeArgs) -> Result<VolumeJob, UsageErrors> {
         reports.push((Target::Stdout, ReportFormat::Text));
     }
     let within = args.within.clone();
-    checks.finish(against.map(|against| VolumeJob { against, csv_order, within, reports }))
+    let unit = checks.unit(args.units.as_ref());
+    // A surface that is brought to a level is the first one given, and the existing one.
+    let existing = if args.existing.is_some() { &args.existing_surface } else { &args.surface };
+    let picks = [&args.surface, existing].map(|surface| Pick { surface: surface.clone(), ..Pick::default() });
+    checks.finish(against.map(|against| VolumeJob { against, csv_order, picks, unit, within, reports }))
 }
 
 /// Number of threads asked for.

@@ -8,6 +8,7 @@ mod formats;
 mod golden;
 mod ground;
 mod help;
+mod landxml;
 mod messages;
 mod sample;
 mod streams;
