@@ -20,7 +20,7 @@ const UNPACK: &str = "unpack it first";
 const FROM_MESH: &str = "export the mesh as OBJ or PLY with double coordinates";
 
 /// First bytes of binary formats that are read.
-const BINARY: [(&[u8], InputFormat); 7] = [
+const BINARY: [(&[u8], InputFormat); 8] = [
     (b"ply\n", InputFormat::Ply),
     (b"ply\r", InputFormat::Ply),
     (b"II*\0", InputFormat::GeoTiff),
@@ -28,6 +28,7 @@ const BINARY: [(&[u8], InputFormat); 7] = [
     (b"II+\0", InputFormat::GeoTiff),
     (b"MM\0+", InputFormat::GeoTiff),
     (b"LASF", InputFormat::Las),
+    (crate::read::dxf::SENTINEL, InputFormat::Dxf),
 ];
 
 /// First bytes of formats that are known but not read.
@@ -182,6 +183,7 @@ mod tests {
             (b"NCOLS 4\n", InputFormat::Asc),
             (b"II*\0rest", InputFormat::GeoTiff),
             (b"LASF", InputFormat::Las),
+            (crate::read::dxf::SENTINEL, InputFormat::Dxf),
             (b"<?xml version=\"1.0\"?>\n<LandXML>", InputFormat::LandXml),
             (b"<?xml version=\"1.0\"?>\n<gpx version=\"1.1\">", InputFormat::Gpx),
             (b"  0\nSECTION\n", InputFormat::Dxf),
