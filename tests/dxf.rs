@@ -623,3 +623,53 @@ mod files {
         }
     }
 }
+
+mod program {
+    use super::*;
+
+    fn run(folder: &std::path::Path, arguments: &str) -> (i32, String) {
+        let output = assert_cmd::Command::new(env!("CARGO_BIN_EXE_slopegen"))
+            .args(arguments.split_whitespace())
+            .current_dir(folder)
+            .env("NO_COLOR", "1")
+            .timeout(Duration::from_secs(120))
+            .output()
+            .unwrap();
+        (output.status.code().unwrap_or(-1), String::from_utf8_lossy(&output.stderr).into_owned())
+    }
+
+    #[test]
+    fn line_and_ground_of_one_drawing() {
+        let folder = tempfile::tempdir().unwrap();
+        let square = "0 LWPOLYLINE 8 PAD 90 4 70 1 38 105 10 40 20 40 10 60 20 40 10 60 20 60 10 40 20 60";
+        let ground = "0 3DFACE 8 DGM 10 0 20 0 30 100 11 100 21 0 31 100 12 100 22 100 32 100 13 0 23 100 33 100";
+        std::fs::write(folder.path().join("site.dxf"), drawing(&format!("{square} {ground} 0 CIRCLE 8 TXT 40 3"))).unwrap();
+        let (code, errors) = run(
+            folder.path(),
+            "build site.dxf --layer pad --slope 1:2 --terrain site.dxf --terrain-layer dgm --report r.json -q",
+        );
+        assert_eq!(code, 0, "{errors}");
+        let report: serde_json::Value = serde_json::from_slice(&std::fs::read(folder.path().join("r.json")).unwrap()).unwrap();
+        // 20 by 20, 5 above the ground; at the height t below the edge the area is 400 + 80·2t + π·(2t)²: 4000 + 500π/3.
+        let fill = 4000.0 + 500.0 * std::f64::consts::PI / 3.0;
+        let figure = |name: &str| report["volumes"][name].as_f64().unwrap();
+        assert!((figure("fill") - fill).abs() <= figure("error_bound") && figure("error_bound") < 0.001 * fill, "{report}");
+        let (code, errors) = run(folder.path(), "build site.dxf --layer axis --slope 1:2");
+        assert_eq!(code, 3);
+        assert!(errors.starts_with("error: the drawing has no layer `axis`\n  --> site.dxf\n   = `PAD`: 1 line; `DGM`: 1 face; `TXT`: 1 other entity\n   = help: "), "{errors}");
+    }
+
+    #[test]
+    fn tracks_are_refused() {
+        let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+        for arguments in ["build fixtures/input/track.gpx --slope 1:2", "volume fixtures/input/track.gpx fixtures/ground.obj"] {
+            let (code, errors) = run(&root, arguments);
+            assert_eq!(code, 3, "{errors}");
+            let figures = "3 track points, 1 way point; latitude 48.7501 to 48.7515, longitude 8.9987 to 9.0031";
+            assert!(errors.contains(figures) && errors.contains("EPSG:32632"), "{errors}");
+        }
+        // A drawing is no mesh to check, whatever it is called.
+        let (code, errors) = run(&root, "check fixtures/dxf/blocks.dxf");
+        assert_eq!(code, 3, "{errors}");
+    }
+}

@@ -135,7 +135,7 @@ pub(super) fn check(label: &str, bytes: &[u8], format: InputFormat) -> Result<()
         return Err(refuse("ground is not read from GeoJSON", label, "format: geojson", help));
     }
     if format == InputFormat::Gpx {
-        return Err(crate::read::gpx(label));
+        return Err(crate::read::gpx::refuse(label, bytes));
     }
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Err(refuse("the ground file is empty", label, format!("{} bytes", bytes.len()), "give a file with ground in it"));
