@@ -6,8 +6,11 @@ const WINDOWS_1252: [char; 32] = [
     '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
 ];
 
+/// Longest name, in letters: that of CAD programs.
+const LONGEST: usize = 255;
+
 /// UTF-8, as drawings of release 2007 (AC1021) and later are, where the bytes are that; else Windows-1252. `\U+00E4` stands for
-/// a letter by its number.
+/// a letter by its number. Without control characters, and no longer than [`LONGEST`].
 pub(super) fn decode(bytes: &[u8]) -> String {
     let text = match std::str::from_utf8(bytes) {
         Ok(text) => text.to_owned(),
@@ -19,7 +22,9 @@ pub(super) fn decode(bytes: &[u8]) -> String {
             })
             .collect(),
     };
-    if text.contains("\\U+") { unescape(&text) } else { text }
+    let text = if text.contains("\\U+") { unescape(&text) } else { text };
+    let clean = |text: &str| !text.chars().any(char::is_control) && text.len() <= LONGEST;
+    if clean(&text) { text } else { text.chars().take(LONGEST).map(|c| if c.is_control() { '·' } else { c }).collect() }
 }
 
 fn unescape(text: &str) -> String {
@@ -73,6 +78,8 @@ mod tests {
         assert_eq!(decode(b"B\xF6schung \x80"), "Böschung €");
         assert_eq!(decode(b"B\\U+00F6schung\\U+00DF"), "Böschungß");
         assert_eq!(decode(b"\\U+D800 \\U+12 \\U+"), "\\U+D800 \\U+12 \\U+");
+        assert_eq!(decode(b"a\x1B[31m\\U+0007"), "a·[31m·");
+        assert_eq!(decode(&vec![0xE4; 1000]).chars().count(), LONGEST);
         assert_eq!(key(&decode("BÖSCHUNG".as_bytes())), key("böschung"));
     }
 
