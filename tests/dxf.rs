@@ -134,6 +134,18 @@ mod polylines {
     }
 
     #[test]
+    fn in_a_tilted_plane() {
+        // Extrusion (0, −s, s) with s = 1/√2: the axes are (1, 0, 0) and (0, s, s). Elevation 10·√2 lifts by (0, −10, 10).
+        let read = lines(drawing(&format!("0 LWPOLYLINE 38 {} 10 0 20 0 42 1 10 10 20 0 210 0 220 -3 230 3", 200_f64.sqrt())));
+        let found = places(&read[0]);
+        close(&[found[0], found[25]], &[[0.0, -10.0, 10.0], [10.0, -10.0, 10.0]], 1e-14);
+        for [x, y, z] in found {
+            let radius = (x - 5.0).hypot((z - 10.0) * 2_f64.sqrt());
+            assert!((radius - 5.0).abs() < 1e-14 && (z - y - 20.0).abs() < 1e-14 && z <= 10.0 + 1e-14, "{x} {y} {z}");
+        }
+    }
+
+    #[test]
     fn heights_of_two_dimensional_ones() {
         let old = |elevation: &str, z: [&str; 2]| {
             let [a, b] = z;
@@ -445,6 +457,13 @@ mod of_ground {
         let (vertices, faces) = mesh(net("71 2 72 2"));
         assert_eq!(vertices, [A, B, D, C]);
         assert_eq!(faces, RawFaces::Polygons { corners: vec![0, 2, 3, 1], ends: vec![4] });
+        // Closed in one direction, in both.
+        let round = |flags: u32| {
+            let rows = [A, B, C, D, [5.0, 5.0, 5.0], [6.0, 6.0, 6.0]].map(|p| vertex(p, 64)).concat();
+            mesh(drawing(&format!("0 POLYLINE 66 1 70 {flags} 71 3 72 2 {rows} 0 SEQEND"))).1
+        };
+        let closed = RawFaces::Polygons { corners: vec![0, 2, 3, 1, 2, 4, 5, 3, 4, 0, 1, 5], ends: vec![4, 8, 12] };
+        assert_eq!((round(17), round(49).len(), round(16).len(), round(48).len()), (closed, 6, 2, 4));
         for size in ["71 3 72 2", "71 2000000000 72 2000000000", "71 -2 72 -2", "71 4 72 1", ""] {
             let message = ground(net(size)).unwrap_err();
             assert!(message.contains("polygon mesh of the drawing is damaged") && message.contains("4 are there"), "{message}");
@@ -549,6 +568,29 @@ mod files {
         }
         // Values nobody needs may be anything.
         assert_eq!(lines(drawing(&format!("0 CIRCLE 10 x 20 y 60 z {POLYLINE} 0 HATCH 210 w"))).len(), 1);
+    }
+
+    #[test]
+    fn all_spellings_of_the_same() {
+        let plain = drawing(POLYLINE);
+        let places_of = |text: &[u8]| places(&lines(text)[0]);
+        let wanted = places_of(plain.as_bytes());
+        let comment = text("999 written 999 SECTION") + &plain;
+        for other in [
+            plain.replace('\n', "\r\n"),
+            plain.replace('\n', "\r"),
+            plain.trim_end().to_owned(),
+            plain.clone() + "\n\n\u{1a}",
+            format!("\u{feff}{plain}"),
+            plain.replace("\n ", "\n").replace("VERTEX\n", "VERTEX \n"),
+            comment.clone(),
+            // Entries of programs and extended data.
+            drawing(&POLYLINE.replace("20 2", "102 {ACAD 330 1F 102 } 1001 APP 1010 99 1020 99 1030 99 20 2")),
+        ] {
+            assert_eq!(places_of(other.as_bytes()), wanted, "{other}");
+        }
+        let face = drawing("0 3DFACE 10 0 20 0 30 1 11 1 21 0 31 1 12 1 22 1 32 1 13 1 23 1 33 1");
+        assert!(parse_terrain("a", (text("999 x") + &face).as_bytes(), &TerrainOptions::default()).is_ok());
     }
 
     /// Small drawings of all kinds.

@@ -200,9 +200,11 @@ impl<'l> Lines<'l> {
             );
             notes.push(Note::new("dxf-count", message));
         }
-        let heights = || self.drawn.iter().flat_map(|drawn| &drawn.vertices).map(|v| v.z);
-        if heights().next().is_some() && heights().all(|z| z == Some(0.0)) {
-            notes.push(Note::new("dxf-zero", "all vertices of the lines are at the elevation 0"));
+        let at_zero = |drawn: &&Drawn| drawn.vertices.iter().all(|v| v.z == Some(0.0));
+        let zero = self.drawn.iter().filter(at_zero).count();
+        if zero > 0 {
+            let message = format!("{zero} of {} lie at the elevation 0 all along", counted(self.drawn.len(), "line", "lines"));
+            notes.push(Note::new("dxf-zero", message));
         }
     }
 }
