@@ -217,6 +217,61 @@ mod single_lines {
     }
 }
 
+mod arcs {
+    use super::*;
+
+    #[test]
+    fn between_lines() {
+        // An exploded line: west, a quarter circle of radius 10 about (10, 20), counter-clockwise from south to east, north.
+        let read = read_with(
+            drawing(
+                "0 LINE 8 A 10 0 20 10 30 7 11 10 21 10 31 7 0 ARC 8 A 10 10 20 20 30 7 40 10 50 270 51 0 0 LINE 8 A 10 20.000001 20 20 30 7 \
+                 11 20 21 30 31 9",
+            ),
+            &options(),
+        )
+        .unwrap();
+        assert_eq!(codes(&read.notes), ["dxf-lines-joined"]);
+        let found = places(&read.lines[0]);
+        let n = found.len();
+        close(
+            &[found[0], found[1], found[n - 2], found[n - 1]],
+            &[[0.0, 10.0, 7.0], [10.0, 10.0, 7.0], [20.0, 20.0, 7.0], [20.0, 30.0, 9.0]],
+            1e-14,
+        );
+        assert!(found[1..n - 1].iter().all(|p| ((p[0] - 10.0).hypot(p[1] - 20.0) - 10.0).abs() < 1e-13 && p[2] == 7.0));
+        // Halves of 45°, chords of β with 10·(1 − cos(β/2)) ≤ 0.01, β ≤ 0.08945: nine each.
+        assert_eq!(n, 21);
+    }
+
+    #[test]
+    fn of_all_angles() {
+        let ends = |start: &str, end: &str| {
+            let found = places(&lines(drawing(&format!("0 ARC 10 0 20 0 30 1 40 1 50 {start} 51 {end}")))[0]);
+            let length: f64 = found.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum();
+            ([found[0][0], found[0][1], found[found.len() - 1][0], found[found.len() - 1][1]], length)
+        };
+        let half = 0.5_f64.sqrt();
+        for (start, end, wanted, degrees) in [
+            ("0", "90", [1.0, 0.0, 0.0, 1.0], 90.0),
+            ("315", "45", [half, -half, half, half], 90.0),
+            ("-45", "-315", [half, -half, half, half], 90.0),
+            ("90", "0", [0.0, 1.0, 1.0, 0.0], 270.0),
+            ("0", "360", [1.0, 0.0, 1.0, 0.0], 360.0),
+            ("10", "9.999", [0.984807753012208, 0.17364817766693036, 0.9848107838, 0.1736309897], 359.999),
+        ] {
+            let (found, length) = ends(start, end);
+            assert!((0..4).all(|i| (found[i] - wanted[i]).abs() < 1e-9), "{start} {end}: {found:?}");
+            // Chords are shorter than the arc, by less than a hundredth here.
+            let arc = f64::to_radians(degrees);
+            assert!(length < arc && length > 0.99 * arc, "{start} {end}: {length} {arc}");
+        }
+        // Seen from below, the angles run clockwise from west.
+        let below = places(&lines(drawing("0 ARC 10 0 20 0 30 -1 40 1 50 0 51 90 210 0 220 0 230 -1"))[0]);
+        close(&[below[0], below[below.len() - 1]], &[[-1.0, 0.0, 1.0], [0.0, 1.0, 1.0]], 1e-15);
+    }
+}
+
 mod layers {
     use super::*;
 

@@ -1,7 +1,7 @@
 //! Single entities: their pairs → coordinates.
 
 use super::pairs::{Pair, Pairs, Place};
-use super::transform::Insertion;
+use super::transform::{Insertion, sin_cos};
 use crate::read::ReadError;
 use crate::read::terrain::refuse;
 use glam::{DVec2, DVec3};
@@ -89,6 +89,33 @@ pub(super) struct Polyline {
     pub(super) uneven: bool,
     /// Number of vertices the file promises, where it is another.
     pub(super) promised: Option<i64>,
+}
+
+/// An ARC, as a polyline of two arcs, for one bulge cannot tell a whole circle.
+pub(super) fn arc<'a>(pairs: &mut Pairs<'a>, place: Place) -> Result<(Common<'a>, Polyline), ReadError> {
+    let mut common = Common::default();
+    let (mut centre, mut radius, mut start, mut end) = (DVec3::ZERO, 0.0, 0.0, 360.0);
+    while let Some(pair) = pairs.field()? {
+        match pair.code {
+            10 => centre.x = pairs.number(&pair)?,
+            20 => centre.y = pairs.number(&pair)?,
+            30 => centre.z = pairs.number(&pair)?,
+            40 => radius = pairs.number(&pair)?,
+            50 => start = pairs.number(&pair)?,
+            51 => end = pairs.number(&pair)?,
+            _ => common.take(pairs, &pair)?,
+        }
+    }
+    // Counter-clockwise from start to end, in degrees.
+    let turn = (end - start).rem_euclid(360.0);
+    let turn: f64 = if turn == 0.0 { 360.0 } else { turn };
+    let bulge = (turn.to_radians() / 8.0).tan();
+    let at = |degrees: f64| {
+        let (sin, cos) = sin_cos(degrees);
+        centre + radius * DVec3::new(cos, sin, 0.0)
+    };
+    let vertices = [start, start + 0.5 * turn, start + turn].map(|degrees| Vertex { at: at(degrees), bulge, place });
+    Ok((common, Polyline { vertices: vertices.to_vec(), planar: true, ..Polyline::default() }))
 }
 
 pub(super) fn lwpolyline<'a>(pairs: &mut Pairs<'a>) -> Result<(Common<'a>, Polyline), ReadError> {

@@ -52,7 +52,7 @@ impl<'l> Ground<'l> {
                 self.points.push(world(point));
                 self.points.last().is_some_and(finite)
             }
-            Shape::Polyline(_) | Shape::Segment(_) => true,
+            Shape::Polyline(_) | Shape::Arc(_) | Shape::Segment(_) => true,
         };
         if !sound {
             let figures = "the numbers of the block and of its insert are too great together";

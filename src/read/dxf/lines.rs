@@ -1,7 +1,7 @@
 //! Polylines and LINEs of a drawing → raw lines.
 
 use super::bulge;
-use super::chain::{self, Segment};
+use super::chain::{self, Piece};
 use super::entity::{Polyline, Vertex};
 use super::layers::{LayerId, Layers};
 use super::names::{counted, key, listed};
@@ -20,18 +20,13 @@ const MOST_ON_ARCS: u64 = 5_000_000;
 /// Least distance of chords from their arcs, in the length unit of the drawing.
 const LEAST_CHORD: f64 = 1e-6;
 
-struct Drawn {
-    layer: LayerId,
-    vertices: Vec<RawVertex>,
-    order: usize,
-}
-
 /// Collects lines.
 pub(super) struct Lines<'l> {
     label: &'l str,
     chord: f64,
-    drawn: Vec<Drawn>,
-    segments: Vec<Segment>,
+    drawn: Vec<Piece>,
+    /// Single LINEs and ARCs.
+    pieces: Vec<Piece>,
     order: usize,
     on_arcs: u64,
     uneven: usize,
@@ -46,7 +41,7 @@ impl<'l> Lines<'l> {
             label,
             chord: chord.max(LEAST_CHORD),
             drawn: Vec::new(),
-            segments: Vec::new(),
+            pieces: Vec::new(),
             order: 0,
             on_arcs: 0,
             uneven: 0,
@@ -61,8 +56,13 @@ impl<'l> Lines<'l> {
         let order = self.order;
         match shape {
             Shape::Segment(ends) => {
-                let ends = ends.map(|end| system.map_or(end, |system| system.transform_point3(end)));
-                self.segments.push(Segment { ends, layer, place, order });
+                let vertices = ends.map(|end| vertex(system.map_or(end, |system| system.transform_point3(end)), place)).to_vec();
+                self.pieces.push(Piece { vertices, layer, order });
+                Ok(())
+            }
+            Shape::Arc(arc) => {
+                let vertices = self.polyline(&arc, system)?;
+                self.pieces.push(Piece { vertices, layer, order });
                 Ok(())
             }
             Shape::Polyline(line) => {
@@ -74,8 +74,12 @@ impl<'l> Lines<'l> {
                     self.empty += 1;
                     return Ok(());
                 }
-                let vertices = self.polyline(&line, system)?;
-                self.drawn.push(Drawn { layer, vertices, order });
+                let mut vertices = self.polyline(&line, system)?;
+                // At 0 by its kind is where a polyline lies that nobody gave an elevation.
+                if line.planar && !line.uneven && vertices.iter().all(|v| v.z == Some(0.0)) {
+                    vertices.iter_mut().for_each(|v| v.z = None);
+                }
+                self.drawn.push(Piece { vertices, layer, order });
                 Ok(())
             }
             Shape::Face(_) | Shape::Mesh(..) | Shape::Point(_) => Ok(()),
@@ -87,8 +91,7 @@ impl<'l> Lines<'l> {
         let chord = self.chord / system.as_ref().map_or(1.0, |system| stretch(system).max(f64::MIN_POSITIVE));
         let mut vertices = Vec::with_capacity(line.vertices.len() + 1);
         let mut push = |at: DVec3, place: Place| {
-            let DVec3 { x, y, z } = system.map_or(at, |system| system.transform_point3(at));
-            vertices.push(RawVertex { x, y, z: Some(z), row: place.row() });
+            vertices.push(vertex(system.map_or(at, |system| system.transform_point3(at)), place));
         };
         let mut arc = |a: &Vertex, b: &Vertex, push: &mut dyn FnMut(DVec3, Place)| {
             let (p, q) = (a.at.truncate(), b.at.truncate());
@@ -114,10 +117,6 @@ impl<'l> Lines<'l> {
         if let (true, [first, .., last]) = (line.closed, line.vertices.as_slice()) {
             arc(last, first, &mut push)?;
             push(first.at, first.place);
-        }
-        // At 0 by its kind is where a polyline lies that nobody gave an elevation.
-        if line.planar && !line.uneven && vertices.iter().all(|v| v.z == Some(0.0)) {
-            vertices.iter_mut().for_each(|v| v.z = None);
         }
         Ok(vertices)
     }
@@ -158,27 +157,18 @@ impl<'l> Lines<'l> {
     }
 
     fn join(&mut self, notes: &mut Vec<Note>) {
-        let given = self.segments.len();
-        let (chains, dropped) = chain::join(std::mem::take(&mut self.segments));
+        let given = self.pieces.len();
+        let (chains, dropped) = chain::join(std::mem::take(&mut self.pieces));
         if chains.len() < given - dropped {
             let lines = counted(chains.len(), "line", "lines");
-            notes.push(Note::new("dxf-lines-joined", format!("{given} single LINEs were joined end to end to {lines}")));
+            notes.push(Note::new("dxf-lines-joined", format!("{given} single LINEs and ARCs were joined end to end to {lines}")));
         }
         if dropped > 0 {
-            let message = format!("left out {} without length or drawn before", counted(dropped, "LINE", "LINEs"));
+            let message =
+                format!("left out {} without length or drawn before", counted(dropped, "LINE or ARC", "LINEs and ARCs"));
             notes.push(Note::new("dxf-lines-dropped", message));
         }
-        self.drawn.extend(chains.into_iter().map(|chain| {
-            Drawn {
-                layer: chain.layer,
-                order: chain.order,
-                vertices: chain
-                    .vertices
-                    .into_iter()
-                    .map(|(at, place)| RawVertex { x: at.x, y: at.y, z: Some(at.z), row: place.row() })
-                    .collect(),
-            }
-        }));
+        self.drawn.extend(chains);
     }
 
     fn tell(&self, notes: &mut Vec<Note>) {
@@ -200,13 +190,17 @@ impl<'l> Lines<'l> {
             );
             notes.push(Note::new("dxf-count", message));
         }
-        let at_zero = |drawn: &&Drawn| drawn.vertices.iter().all(|v| v.z == Some(0.0));
+        let at_zero = |drawn: &&Piece| drawn.vertices.iter().all(|v| v.z == Some(0.0));
         let zero = self.drawn.iter().filter(at_zero).count();
         if zero > 0 {
             let message = format!("{zero} of {} lie at the elevation 0 all along", counted(self.drawn.len(), "line", "lines"));
             notes.push(Note::new("dxf-zero", message));
         }
     }
+}
+
+fn vertex(DVec3 { x, y, z }: DVec3, place: Place) -> RawVertex {
+    RawVertex { x, y, z: Some(z), row: place.row() }
 }
 
 /// The lines of these names.

@@ -25,7 +25,7 @@ use index::Index;
 use layers::Layers;
 use walk::{Passed, Want};
 
-/// Lines of a DXF file: polylines with their arcs cut into chords, single LINEs joined end to end.
+/// Lines of a DXF file: polylines with their arcs cut into chords, single LINEs and ARCs joined end to end.
 ///
 /// # Errors
 /// The file is damaged; it has no lines that are meant; a layer or a line asked for is not there.
@@ -44,8 +44,8 @@ pub(super) fn lines(
     layers.check(&label)?;
     let lines = found.finish(&layers, &options.pick.features, notes)?;
     if lines.is_empty() {
-        let help = "give a drawing with polylines or LINEs on layers that are on, or name a layer with `--layer`; convert splines \
-                    and arcs to polylines first";
+        let help = "give a drawing with polylines, LINEs or ARCs on layers that are on, or name a layer with `--layer`; convert \
+                    splines and circles to polylines first";
         return Err(refuse("the drawing has no lines to read", label.as_str(), layers.holdings(), help));
     }
     passed.tell(notes);

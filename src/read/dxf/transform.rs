@@ -17,7 +17,7 @@ pub(super) fn axes(extrusion: DVec3) -> DMat3 {
 }
 
 /// Sine and cosine of an angle in degrees; exact for right angles, so that blocks turned by them keep their coordinates.
-fn sin_cos(degrees: f64) -> (f64, f64) {
+pub(super) fn sin_cos(degrees: f64) -> (f64, f64) {
     let turned = degrees.rem_euclid(360.0);
     match turned {
         0.0 => (0.0, 1.0),

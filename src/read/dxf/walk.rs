@@ -20,7 +20,7 @@ const MOST_PAIRS: u64 = 20_000_000;
 /// Which entities are wanted; the others are only counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Want {
-    /// Polylines and LINEs.
+    /// Polylines, LINEs and ARCs.
     Lines,
     /// Faces, meshes and points.
     Ground,
@@ -29,6 +29,7 @@ pub(super) enum Want {
 /// The coordinates of an entity.
 pub(super) enum Shape {
     Polyline(Polyline),
+    Arc(Polyline),
     Segment([DVec3; 2]),
     /// The last corner of triangles is repeated.
     Face([DVec3; 4]),
@@ -123,6 +124,10 @@ impl<'a> Walk<'_, 'a> {
                 let (common, ends) = entity::corners(pairs)?;
                 self.shape(&common, place, around, || Shape::Segment(ends))
             }
+            (b"ARC", Want::Lines) => {
+                let (common, arc) = entity::arc(pairs, place)?;
+                self.shape(&common, place, around, || Shape::Arc(arc))
+            }
             (b"LWPOLYLINE", Want::Lines) => {
                 let (common, line) = entity::lwpolyline(pairs)?;
                 self.shape(&common, place, around, || Shape::Polyline(line))
@@ -152,7 +157,7 @@ impl<'a> Walk<'_, 'a> {
                     }
                 }
             }
-            (b"LINE" | b"LWPOLYLINE", Want::Ground) => {
+            (b"LINE" | b"ARC" | b"LWPOLYLINE", Want::Ground) => {
                 let common = entity::other(pairs)?;
                 self.count(&common, around, |census| census.lines += 1);
                 Ok(())
@@ -222,7 +227,7 @@ impl<'a> Walk<'_, 'a> {
         let shape = shape();
         if let Some(census) = self.layers.census(layer) {
             match &shape {
-                Shape::Polyline(_) | Shape::Segment(_) => census.lines += 1,
+                Shape::Polyline(_) | Shape::Arc(_) | Shape::Segment(_) => census.lines += 1,
                 Shape::Face(_) => census.faces += 1,
                 Shape::Mesh(_, faces) => census.faces += faces.len(),
                 Shape::Point(_) => census.points += 1,
@@ -233,7 +238,7 @@ impl<'a> Walk<'_, 'a> {
             self.passed.hidden += usize::from(!self.layers.chosen());
             return Ok(());
         }
-        let planar = matches!(&shape, Shape::Polyline(line) if line.planar) && common.extrusion != DVec3::Z;
+        let planar = matches!(&shape, Shape::Polyline(line) | Shape::Arc(line) if line.planar) && common.extrusion != DVec3::Z;
         let system = match (around.system, planar) {
             (outer, false) => outer,
             (outer, true) => Some(outer.unwrap_or(DAffine3::IDENTITY) * DAffine3::from_mat3(axes(common.extrusion))),
