@@ -443,6 +443,11 @@ mod blocks {
             assert!(message.contains("expand to too much"), "{message}");
             assert!(ground(with_blocks(&blocks, insert)).unwrap_err().contains("expand to too much"));
         }
+        // Symbols at every point are no bomb: a hundred pairs each.
+        let symbol = "0 CIRCLE 10 1 20 1 40 1 ".repeat(24);
+        let inserts: String = (0..25_000).map(|i| format!("0 INSERT 2 S 10 {i} 20 {} ", i % 100)).collect();
+        let points = ground(with_blocks(&format!("0 BLOCK 2 S {symbol} 0 POINT 30 7 0 ENDBLK"), &inserts)).unwrap();
+        assert!(matches!(&points.ground, RawGround::Points(list) if list.len() == 25_000));
         // No copies, or fewer, are one.
         assert_eq!(lines(with_blocks(&format!("0 BLOCK 2 A {LINE} 0 ENDBLK"), "0 INSERT 2 A 70 0 71 -5")).len(), 1);
         assert!(start.elapsed() < Duration::from_secs(60), "{:?}", start.elapsed());

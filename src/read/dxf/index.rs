@@ -28,13 +28,16 @@ pub(super) struct Index<'a> {
     by_key: FxHashMap<String, usize>,
     /// Beginnings of the sections of entities.
     pub(super) entities: Vec<Pairs<'a>>,
+    /// Number of pairs in blocks and in sections of entities.
+    pub(super) pairs: u64,
 }
 
 impl<'a> Index<'a> {
     /// # Errors
     /// The file is no drawing, damaged or cut off.
     pub(super) fn read(label: &'a str, bytes: &'a [u8], layers: &mut Layers<'a>) -> Result<Self, ReadError> {
-        let mut index = Self { units: None, blocks: Vec::new(), by_key: FxHashMap::default(), entities: Vec::new() };
+        let (blocks, by_key) = (Vec::new(), FxHashMap::default());
+        let mut index = Self { units: None, blocks, by_key, entities: Vec::new(), pairs: 0 };
         let mut pairs = Pairs::new(label, bytes);
         loop {
             let pair = pairs.expect()?;
@@ -64,9 +67,10 @@ impl<'a> Index<'a> {
             b"BLOCKS" => self.blocks(pairs),
             b"ENTITIES" => {
                 self.entities.push(*pairs);
-                skip_section(pairs)
+                self.pairs += skip_section(pairs)?;
+                Ok(())
             }
-            _ => skip_section(pairs),
+            _ => skip_section(pairs).map(drop),
         }
     }
 
@@ -120,6 +124,7 @@ impl<'a> Index<'a> {
                 _ => count += 1,
             }
         }
+        self.pairs += count;
         let name = decode(name);
         // Of two blocks of one name the first counts, as programs keep it.
         self.by_key.entry(key(&name)).or_insert(self.blocks.len());
@@ -151,12 +156,15 @@ fn tables<'a>(pairs: &mut Pairs<'a>, layers: &mut Layers<'a>) -> Result<(), Read
     }
 }
 
-fn skip_section(pairs: &mut Pairs<'_>) -> Result<(), ReadError> {
+/// How many pairs were skipped.
+fn skip_section(pairs: &mut Pairs<'_>) -> Result<u64, ReadError> {
+    let mut count = 0;
     loop {
         let pair = pairs.expect()?;
         if pair.code == 0 && matches!(pair.text(), b"ENDSEC" | b"SECTION" | b"EOF") {
-            return section_end(pairs.label, &pair);
+            return section_end(pairs.label, &pair).map(|()| count);
         }
+        count += 1;
     }
 }
 

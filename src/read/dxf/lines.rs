@@ -15,7 +15,7 @@ use glam::{DAffine3, DVec3};
 use std::collections::BTreeMap;
 
 /// Points on the arcs of one drawing, in all.
-const MOST_ON_ARCS: u64 = 5_000_000;
+const MOST_ON_ARCS: u64 = 1_000_000;
 
 /// Least distance of chords from their arcs, in the length unit of the drawing.
 const LEAST_CHORD: f64 = 1e-6;

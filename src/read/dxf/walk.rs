@@ -13,9 +13,15 @@ use std::collections::BTreeMap;
 /// Blocks inside blocks may be this deep: drawings in use have three or four.
 const DEEPEST: usize = 32;
 
-/// Pairs that may be read from blocks, repetitions counted: a second or two, and well below the memory of a drawing of the same
-/// size without blocks.
-const MOST_PAIRS: u64 = 20_000_000;
+/// How many pairs may be read from blocks, repetitions counted, where the drawing has so many: symbols of a hundred pairs are
+/// inserted by six. So small files stay small, and large ones need at most a few times their own room.
+fn most_pairs(pairs: u64) -> u64 {
+    /// In any drawing: those of half a million vertices.
+    const FREE: u64 = 2_000_000;
+    /// Beyond this, four times those of the drawing.
+    const MANY: u64 = 20_000_000;
+    FREE.saturating_add(pairs.saturating_mul(16)).min(MANY.max(pairs.saturating_mul(4)))
+}
 
 /// Which entities are wanted; the others are only counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,14 +76,15 @@ struct Around {
 /// Reads through the drawing and hands every wanted entity to `take`, in the order of the file.
 ///
 /// # Errors
-/// Damaged entities; blocks that contain themselves, or expand to more than [`MOST_PAIRS`]; what `take` returns.
+/// Damaged entities; blocks that contain themselves, or expand to too much; what `take` returns.
 pub(super) fn walk<'a>(
     index: &Index<'a>,
     layers: &mut Layers<'a>,
     want: Want,
     take: &mut dyn FnMut(Placed) -> Result<(), ReadError>,
 ) -> Result<Passed, ReadError> {
-    let mut walk = Walk { index, layers, want, take, passed: Passed::default(), stack: Vec::new(), pairs: 0 };
+    let most = most_pairs(index.pairs);
+    let mut walk = Walk { index, layers, want, take, passed: Passed::default(), stack: Vec::new(), pairs: 0, most };
     for section in &index.entities {
         walk.span(*section, Around::default())?;
     }
@@ -94,6 +101,8 @@ struct Walk<'i, 'a> {
     stack: Vec<usize>,
     /// Read from blocks.
     pairs: u64,
+    /// May be read from blocks.
+    most: u64,
 }
 
 impl<'a> Walk<'_, 'a> {
@@ -272,10 +281,10 @@ impl<'a> Walk<'_, 'a> {
         }
         let copies = insert.columns.saturating_mul(insert.rows);
         self.pairs = self.pairs.saturating_add(copies.saturating_mul(block.pairs.saturating_add(1)));
-        if self.pairs > MOST_PAIRS {
+        if self.pairs > self.most {
             let figures = format!(
-                "block `{}`, {} by {} times; more than {MOST_PAIRS} pairs of code and value in all",
-                block.name, insert.columns, insert.rows
+                "block `{}`, {} by {} times; more than {} pairs of code and value in all",
+                block.name, insert.columns, insert.rows, self.most
             );
             let what = "the blocks of the drawing expand to too much";
             return Err(refuse(what, place.of(label), figures, "leave out the inserts that are not needed"));
