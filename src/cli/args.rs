@@ -108,7 +108,7 @@ pub(super) struct BuildArgs {
     /// Write the mesh; .obj or .ply, may be repeated [default: the input's name with .obj, in the working folder]
     #[arg(short, long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) output: Vec<OsString>,
-    /// Write the report; .json or .txt, may be repeated [default: as text to standard output]
+    /// Write the report; .json, .txt or .html, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
     /// Write level curves, creases, hinge, daylight line and boundary; .geojson, may be repeated
@@ -176,7 +176,7 @@ pub(super) struct VolumeArgs {
     #[arg(long, value_name = "ORDER", help_heading = help::INPUT)]
     pub(super) csv_order: Option<String>,
 
-    /// Write the report; .json or .txt, may be repeated [default: as text to standard output]
+    /// Write the report; .json, .txt or .html, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
 

@@ -80,7 +80,7 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
 
     watch.stage_of(WRITING);
     let crs = source.crs.as_deref();
-    let _scene = Scene {
+    let scene = Scene {
         title: &source.label,
         unit,
         crs,
@@ -94,7 +94,7 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
             Content::Mesh(format) => format.write(out, &design),
             Content::Finished(format) => finished.as_ref().map_or(Ok(()), |tin| format.write(out, tin)),
             Content::Lines => write_lines(out, &lines, crs).map(drop),
-            Content::Report(format) => format.write(out, report),
+            Content::Report(format) => format.write(out, report, &scene),
         })
     };
     for index in in_order(&targets, &contents) {
@@ -136,7 +136,7 @@ impl Survey {
 impl BuildJob {
     /// Whether an output needs ground and pieces of the works, beyond meshes, line work and figures.
     pub(super) fn draws(&self) -> bool {
-        false
+        self.reports.iter().any(|(_, format)| format.draws())
     }
 }
 

@@ -7,7 +7,9 @@ mod text;
 
 pub use figures::*;
 pub use text::render_check;
+pub(super) use text::{percent, place, share, verdict};
 
+use super::html::write_check_html;
 use super::json::write_json;
 use super::{Input, ReportFormat, Tool, Units, Warning};
 use crate::mesh::quality::{self, ANGLE_BINS, LoopKind, Quality};
@@ -173,6 +175,7 @@ impl ReportFormat {
         match self {
             Self::Json => write_json(out, report),
             Self::Text => Ok(out.write_all(render_check(report).as_bytes())?),
+            Self::Html => write_check_html(out, report),
         }
     }
 }

@@ -1,8 +1,9 @@
-//! What a run has to tell: as data ([`Report`]), as JSON for machines, as text for people.
+//! What a run has to tell: as data ([`Report`]), as JSON for machines, as text and as a page for people.
 
 pub mod between;
 pub mod check;
 pub mod ground;
+pub mod html;
 pub mod json;
 pub mod model;
 pub mod text;
@@ -22,6 +23,7 @@ pub use model::*;
 pub use text::{write_between, write_text};
 pub use volumes::{Balance, BulkingFigures, CutFillFigures, DepthPlace, Depths, Reference, VolumeParts, Volumes};
 
+use crate::plot::Scene;
 use crate::write::{EncodeError, Target, UnknownFormat, ending};
 use std::io::Write;
 
@@ -32,6 +34,8 @@ pub enum ReportFormat {
     Json,
     /// For people.
     Text,
+    /// For people with a browser: one page with drawings, that needs nothing else.
+    Html,
 }
 
 impl ReportFormat {
@@ -45,30 +49,38 @@ impl ReportFormat {
         match ending(path).as_deref() {
             Some("json") => Ok(Self::Json),
             Some("txt") => Ok(Self::Text),
+            Some("html" | "htm") => Ok(Self::Html),
             _ if target.is_stream() => Ok(Self::Text),
-            _ => Err(UnknownFormat { what: "report", path: path.clone(), known: "`.json` or `.txt`" }),
+            _ => Err(UnknownFormat { what: "report", path: path.clone(), known: "`.json`, `.txt` or `.html`" }),
         }
     }
 
-    /// Writes a report in this format.
+    /// Whether it shows the scene, not only figures.
+    pub fn draws(self) -> bool {
+        self == Self::Html
+    }
+
+    /// Writes a report in this format; the page draws `scene`.
     ///
     /// # Errors
-    /// As [`write_json`] and [`write_text`].
-    pub fn write(self, out: &mut (impl Write + ?Sized), report: &Report) -> Result<(), EncodeError> {
+    /// As [`write_json`], [`write_text`] and [`html::write_html`].
+    pub fn write(self, out: &mut (impl Write + ?Sized), report: &Report, scene: &Scene<'_>) -> Result<(), EncodeError> {
         match self {
             Self::Json => write_json(out, report),
             Self::Text => write_text(out, report),
+            Self::Html => html::write_html(out, report, scene),
         }
     }
 
     /// Writes the report of a comparison in this format.
     ///
     /// # Errors
-    /// As [`write_json`] and [`write_between`].
+    /// As [`write_json`], [`write_between`] and [`html::write_between_html`].
     pub fn write_between(self, out: &mut (impl Write + ?Sized), report: &BetweenReport) -> Result<(), EncodeError> {
         match self {
             Self::Json => write_json(out, report),
             Self::Text => write_between(out, report),
+            Self::Html => html::write_between_html(out, report),
         }
     }
 }
@@ -82,10 +94,11 @@ mod tests {
         let of = |name: &str| ReportFormat::of(&Target::File(name.into()));
         assert_eq!(of("r.JSON"), Ok(ReportFormat::Json));
         assert_eq!(of("r.txt"), Ok(ReportFormat::Text));
+        assert_eq!(of("r.Html"), Ok(ReportFormat::Html));
         assert_eq!(ReportFormat::of(&Target::Stdout), Ok(ReportFormat::Text));
         assert_eq!(
             of("r.pdf").unwrap_err().to_string(),
-            "no format is known for the ending `.pdf`\n  --> r.pdf\n   = help: end the name of a report in `.json` or `.txt`"
+            "no format is known for the ending `.pdf`\n  --> r.pdf\n   = help: end the name of a report in `.json`, `.txt` or `.html`"
         );
     }
 

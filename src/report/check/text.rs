@@ -73,7 +73,7 @@ pub fn render_check(report: &CheckReport) -> String {
     text
 }
 
-fn verdict(report: &CheckReport) -> String {
+pub(in crate::report) fn verdict(report: &CheckReport) -> String {
     let v = &report.verdict;
     let sound = if v.sound { "the surface is sound" } else { "the surface is not sound" };
     let kept = match v.slope_kept {
@@ -97,7 +97,7 @@ fn finding(text: &mut String, f: &FindingFigures) {
     }
 }
 
-fn place(p: &PlaceFigures) -> String {
+pub(in crate::report) fn place(p: &PlaceFigures) -> String {
     let [x, y, z] = p.at;
     let mut text = format!("  at ({x:.3}, {y:.3}, {z:.3})");
     for (name, names, numbers) in [("triangle", "triangles", &p.triangles), ("vertex", "vertices", &p.vertices)] {
@@ -201,12 +201,12 @@ fn bound(text: &mut String, b: &BoundFigures) {
     named(text, "kept", if b.passed { "yes" } else { "NO" }.to_owned());
 }
 
-fn share(s: &ShareFigures) -> String {
+pub(in crate::report) fn share(s: &ShareFigures) -> String {
     format!("{} of the area ({:.2}, {})", percent(s.share), s.area, count(s.triangles, "triangle", "triangles"))
 }
 
 /// A share in percent. What is not all does not read as all, what is something not as nothing.
-fn percent(share: f64) -> String {
+pub(in crate::report) fn percent(share: f64) -> String {
     let text = format!("{:.2} %", 100.0 * share);
     match text.as_str() {
         "0.00 %" if share > 0.0 => "< 0.01 %".to_owned(),
