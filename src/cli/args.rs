@@ -117,6 +117,12 @@ pub(super) struct BuildArgs {
     /// Write slope stakes for every --stations and side: hinge, catch point, distances, slope; .csv, may be repeated
     #[arg(long, value_name = "FILE", requires = "stations", help_heading = help::OUTPUT)]
     pub(super) stakes: Vec<OsString>,
+    /// Draw as SVG; the name ends in plan.svg, profile.svg, sections.svg or haul.svg, which says what; may be repeated
+    #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
+    pub(super) plot: Vec<OsString>,
+    /// Stations of the cross-sections drawn, such as 40,80,120 [default: those of --stations]
+    #[arg(long, value_name = "S", value_delimiter = ',', allow_negative_numbers = true, help_heading = help::OUTPUT)]
+    pub(super) section: Vec<String>,
     /// Write level curves, creases, hinge, daylight line and boundary; .geojson, may be repeated
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) lines: Vec<OsString>,

@@ -4,7 +4,7 @@ use super::watch::{CHECKING, Observer, PREPARING, READING, READING_GROUND, Stopw
 use super::{BuriedError, Error, Given, GroundInput, LineInput, Wishes, check_steepness, figures, on_ground, read_line};
 use crate::ground::{Pieces, Stations, Tallied, axes};
 use crate::model::{Bulking, Line, LineFeature, Note, Sheet, Terrain, Tin};
-use crate::plot::{OnGround, Scene};
+use crate::plot::{self, Drawing, OnGround, Scene};
 use crate::read::Source;
 use crate::report::{CrossfallFigures, Report, ReportFormat};
 use crate::setout::{self, Stake};
@@ -38,6 +38,10 @@ pub struct BuildJob {
     pub lines: Vec<Target>,
     /// Where slope stakes go; they need stations.
     pub stakes: Vec<Target>,
+    /// Where drawings go.
+    pub plots: Vec<(Target, Drawing)>,
+    /// Stations of the cross-sections to be drawn; none: all of `stations`.
+    pub sections: Vec<f64>,
     /// Where reports go.
     pub reports: Vec<(Target, ReportFormat)>,
 }
@@ -58,6 +62,7 @@ enum Content {
     Finished(MeshFormat),
     Lines,
     Stakes,
+    Plot(Drawing),
     Report(ReportFormat),
 }
 
@@ -90,13 +95,14 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
 
     watch.stage_of(WRITING);
     let crs = source.crs.as_deref();
-    let _scene = Scene {
+    let scene = Scene {
         title: &source.label,
         unit,
         crs,
         line: &line,
         design: &design,
         lines: &lines,
+        bulking: job.bulking,
         ground: survey.as_ref().map(Survey::scene),
     };
     let mut put = |index: usize, report: &Report| -> Result<Delivery, WriteError> {
@@ -105,6 +111,7 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
             Content::Finished(format) => finished.as_ref().map_or(Ok(()), |tin| format.write(out, tin)),
             Content::Lines => write_lines(out, &lines, crs).map(drop),
             Content::Stakes => write_stakes(out, &stakes),
+            Content::Plot(drawing) => Ok(out.write_all(plot::file(&scene, drawing, &job.sections).as_bytes())?),
             Content::Report(format) => format.write(out, report),
         })
     };
@@ -174,7 +181,7 @@ impl Survey {
 impl BuildJob {
     /// Whether an output needs ground and pieces of the works, beyond meshes, line work and figures.
     pub(super) fn draws(&self) -> bool {
-        !self.stakes.is_empty()
+        !self.stakes.is_empty() || !self.plots.is_empty()
     }
 }
 
@@ -209,7 +216,8 @@ fn wanted(job: &BuildJob) -> Vec<(Target, Content)> {
     let lines = job.lines.iter().map(|target| (target.clone(), Content::Lines));
     let reports = job.reports.iter().map(|(target, format)| (target.clone(), Content::Report(*format)));
     let stakes = job.stakes.iter().map(|target| (target.clone(), Content::Stakes));
-    meshes.chain(finished).chain(lines).chain(stakes).chain(reports).collect()
+    let plots = job.plots.iter().map(|(target, drawing)| (target.clone(), Content::Plot(*drawing)));
+    meshes.chain(finished).chain(lines).chain(stakes).chain(plots).chain(reports).collect()
 }
 
 /// The order in which outputs are written. Files first, because they can still be taken back; standard output last; of each kind

@@ -18,7 +18,7 @@ mod sections;
 mod style;
 mod svg;
 
-pub use drawing::Drawing;
+pub use drawing::{Drawing, UnknownDrawing, file};
 pub use haul::mass_haul;
 pub use plan::plan;
 pub use profile::profile;

@@ -93,7 +93,7 @@ pub fn plan(scene: &Scene<'_>, style: &Style) -> Option<String> {
         }
         y += row.height;
     }
-    Some(svg.finish())
+    Some(svg.finish().text)
 }
 
 /// A length with its unit.

@@ -14,12 +14,13 @@ const FARTHEST: f64 = 1e6;
 #[derive(Debug)]
 pub(super) struct Svg {
     text: String,
+    size: DVec2,
 }
 
 impl Svg {
     /// Begins a drawing. `title` names it, `desc` tells its content, both also to those who cannot see it.
     pub(super) fn new(style: &Style, size: DVec2, title: &str, desc: &str) -> Self {
-        let mut svg = Self { text: String::new() };
+        let mut svg = Self { text: String::new(), size };
         let (width, height) = (number(size.x), number(size.y));
         if style.standalone {
             svg.text.push_str("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
@@ -98,10 +99,37 @@ impl Svg {
     }
 
     /// The whole drawing.
-    pub(super) fn finish(mut self) -> String {
+    pub(super) fn finish(mut self) -> Drawn {
         self.text.push_str("</svg>\n");
-        self.text
+        Drawn { text: self.text, size: self.size }
     }
+}
+
+/// A finished drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Drawn {
+    pub(super) text: String,
+    /// Its size in px.
+    pub(super) size: DVec2,
+}
+
+/// Drawings below each other in one file. They are parts, not standalone.
+pub(super) fn sheet(parts: &[Drawn], title: &str, note: Option<&str>) -> String {
+    /// Room for a line of text.
+    const LINE: f64 = 34.0;
+    let rows = parts.iter().map(|part| part.size.y).sum::<f64>();
+    let width = parts.iter().map(|part| part.size.x).fold(Style::FILE.width, f64::max);
+    let size = DVec2::new(width, rows + if note.is_some() { LINE } else { 0.0 });
+    let mut svg = Svg::new(&Style::FILE, size, title, note.unwrap_or(title));
+    let mut y = 0.0;
+    for part in parts {
+        svg.text.push_str(&part.text.replacen("<svg ", &format!("<svg y=\"{}\" ", number(y)), 1));
+        y += part.size.y;
+    }
+    if let Some(note) = note {
+        svg.text("soft", DVec2::new(20.0, y + 20.0), 0.0, note);
+    }
+    svg.finish().text
 }
 
 /// A place in hundredths of a px.
