@@ -121,6 +121,7 @@ fn run(name: &str, count: usize) {
         extent: Extent::Elevation(line.elevation_range().0 - 10.0),
         interval: None,
         tolerance: 0.01,
+        levels: Vec::new(),
         companion: None,
         frame: None,
     };

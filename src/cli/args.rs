@@ -63,6 +63,9 @@ pub(super) struct BuildArgs {
     /// Height between level curves [default: a round number that gives 10 to 25 of them]
     #[arg(long, value_name = "DZ", allow_negative_numbers = true, help_heading = help::SURFACE)]
     pub(super) interval: Option<String>,
+    /// Level curves at these elevations, such as 402.5,404; alone or beside those of --interval
+    #[arg(long, value_name = "Z", value_delimiter = ',', allow_negative_numbers = true, help_heading = help::SURFACE)]
+    pub(super) level: Vec<String>,
     /// Greatest height error of the whole mesh
     #[arg(long, value_name = "T", default_value = "0.01", allow_negative_numbers = true, help_heading = help::SURFACE)]
     pub(super) tolerance: String,
@@ -90,9 +93,9 @@ pub(super) struct BuildArgs {
     /// Write the whole ground with the works in it: .obj or .ply
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) finished: Vec<OsString>,
-    /// Cut and fill for every D along the line, with cross-sections and the running net
+    /// Cut and fill for every D along the line, with cross-sections and the running net; stations of slope stakes
     ///
-    /// Needs existing ground.
+    /// Needs existing ground, or --stakes.
     #[arg(long, value_name = "D", allow_negative_numbers = true, help_heading = help::SURFACE)]
     pub(super) stations: Option<String>,
     /// Gain in volume of soil when it is dug: 25% or 0.25
@@ -111,6 +114,15 @@ pub(super) struct BuildArgs {
     /// Write the report; .json, .txt or .html, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
+    /// Write slope stakes for every --stations and side: hinge, catch point, distances, slope; .csv, may be repeated
+    #[arg(long, value_name = "FILE", requires = "stations", help_heading = help::OUTPUT)]
+    pub(super) stakes: Vec<OsString>,
+    /// Draw as SVG; the name ends in plan.svg, profile.svg, sections.svg or haul.svg, which says what; may be repeated
+    #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
+    pub(super) plot: Vec<OsString>,
+    /// Stations of the cross-sections drawn, such as 40,80,120 [default: those of --stations]
+    #[arg(long, value_name = "S", value_delimiter = ',', allow_negative_numbers = true, help_heading = help::OUTPUT)]
+    pub(super) section: Vec<String>,
     /// Write level curves, creases, hinge, daylight line and boundary; .geojson, may be repeated
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) lines: Vec<OsString>,

@@ -47,9 +47,15 @@ impl Code {
                 GroundError::Unsound { .. } | GroundError::Cut { .. } => Self::Check,
                 _ => Self::Work,
             },
-            Some(Error::Invalid(_) | Error::Formation(_) | Error::Design(_) | Error::Overlay(_) | Error::Buried(_)) | None => {
-                Self::Work
-            }
+            Some(
+                Error::Invalid(_)
+                | Error::Formation(_)
+                | Error::Design(_)
+                | Error::Overlay(_)
+                | Error::Stations(_)
+                | Error::Buried(_),
+            )
+            | None => Self::Work,
         }
     }
 

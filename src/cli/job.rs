@@ -5,6 +5,7 @@ use super::number::{self, Rule};
 use crate::formation::{Crossfall, Formation};
 use crate::model::{Bulking, Extent, LengthUnit, Sheet, Side, Slope};
 use crate::pipeline::{Against, Area, BuildJob, GroundInput, Lattice, LineInput, SampleJob, VolumeJob, Where, Wishes};
+use crate::plot::Drawing;
 use crate::read::terrain::TerrainOptions;
 use crate::read::{ColumnOrder, InputFormat, Pick, ReadOptions};
 use crate::report::ReportFormat;
@@ -154,6 +155,44 @@ impl Checks {
         swell.zip(shrink).filter(|_| given).and_then(|(swell, shrink)| Bulking::new(swell, shrink))
     }
 
+    /// Where drawings go, and that there is what they need.
+    fn plots(&mut self, args: &BuildArgs) -> Vec<(Target, Drawing)> {
+        let mut plots = Vec::new();
+        for target in targets(&args.plot) {
+            let drawing = self.take(Drawing::of(&target).map_err(|error| error.to_string()));
+            plots.extend(drawing.map(|drawing| (target, drawing)));
+        }
+        for (target, drawing) in &plots {
+            let lacks = match drawing {
+                Drawing::Haul if args.terrain.is_none() || args.stations.is_none() => {
+                    Some(("the mass haul needs stations on existing ground", "give `--terrain` and `--stations`"))
+                }
+                Drawing::Sections if args.section.is_empty() && args.stations.is_none() => {
+                    Some(("cross-sections need stations", "choose some with `--section 40,80,120`, or give `--stations`"))
+                }
+                _ => None,
+            };
+            if let Some((what, help)) = lacks {
+                self.0.push(format!("{what}\n  --> --plot {target}\n   = help: {help}"));
+            }
+        }
+        plots
+    }
+
+    /// Stations of cross-sections, ascending.
+    fn sections(&mut self, args: &BuildArgs, plots: &[(Target, Drawing)]) -> Vec<f64> {
+        let mut stations: Vec<f64> =
+            args.section.iter().filter_map(|text| self.number("--section", Some(text), Rule::Coordinate)).collect();
+        stations.sort_by(f64::total_cmp);
+        stations.dedup();
+        if !args.section.is_empty() && !plots.iter().any(|(_, drawing)| *drawing == Drawing::Sections) {
+            let given = args.section.join(",");
+            let help = "ask for a drawing of them, such as `--plot sections.svg`";
+            self.0.push(format!("`--section` says where cross-sections are drawn\n  --> --section {given}\n   = help: {help}"));
+        }
+        stations
+    }
+
     /// Refuses options that mean nothing without existing ground.
     fn needs_ground(&mut self, options: &[(&str, Option<&String>)]) {
         for (option, text) in options {
@@ -193,6 +232,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         checks.number("--distance", args.distance.as_ref(), Rule::AtLeast(LEAST_LENGTH)).map(Extent::Distance),
     ];
     let interval = checks.number("--interval", args.interval.as_ref(), Rule::Positive);
+    let levels: Vec<f64> = args.level.iter().filter_map(|z| checks.number("--level", Some(z), Rule::Coordinate)).collect();
     let tolerance = checks.number("--tolerance", Some(&args.tolerance), Rule::AtLeast(LEAST_LENGTH));
     if let Some(tolerance) = tolerance {
         input.tolerance = tolerance;
@@ -205,7 +245,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     if args.terrain.is_none() {
         let finished = args.finished.first().map(|name| name.to_string_lossy().into_owned());
         checks.needs_ground(&[
-            ("--stations", args.stations.as_ref()),
+            ("--stations", args.stations.as_ref().filter(|_| args.stakes.is_empty())),
             ("--swell", args.swell.as_ref()),
             ("--shrink", args.shrink.as_ref()),
             ("--finished", finished.as_ref()),
@@ -254,6 +294,12 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     for target in &lines {
         checks.format(ending(target, "line-work file", &["geojson", "json"], "`.geojson` or `.json`"));
     }
+    let stakes = targets(&args.stakes);
+    for target in &stakes {
+        checks.format(ending(target, "table of slope stakes", &["csv"], "`.csv`"));
+    }
+    let plots = checks.plots(args);
+    let sections = checks.sections(args, &plots);
     let mut reports = Vec::new();
     for target in targets(&args.report) {
         let format = checks.format(ReportFormat::of(&target));
@@ -264,6 +310,8 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         .chain(&finished)
         .map(|(t, _)| t)
         .chain(&lines)
+        .chain(&stakes)
+        .chain(plots.iter().map(|(t, _)| t))
         .chain(reports.iter().map(|(t, _)| t))
         .any(|t| *t == Target::Stdout);
     if !used && !args.running.quiet {
@@ -288,7 +336,10 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     });
     let job = tolerance.filter(|_| !slopes.is_empty()).map(|tolerance| BuildJob {
         input,
-        wishes: slopes.into_iter().map(|(slope, sheet)| Wishes { slope, sheet, side, extent, interval, tolerance }).collect(),
+        wishes: slopes
+            .into_iter()
+            .map(|(slope, sheet)| Wishes { slope, sheet, side, extent, interval, levels: levels.clone(), tolerance })
+            .collect(),
         ground,
         reference,
         stations,
@@ -297,6 +348,9 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         meshes,
         finished,
         lines,
+        stakes,
+        plots,
+        sections,
         reports,
     });
     checks.finish(job)

@@ -6,15 +6,15 @@ use super::nodes::Nodes;
 use super::patch::{NONE, Patch};
 use super::reach::{Bounds, Reach};
 use super::shape::Shape;
-use super::stations::Stations;
+use super::stations::{Stations, axes};
 use super::tally::Tally;
 use super::trimmed::Trimmed;
 use super::works::{End, Flood, Sink, Works};
-use super::{Axis, Corner, GroundError, Piece, Pieces, SectionFigures, Sections, cell};
+use super::{Corner, GroundError, Piece, Pieces, SectionFigures, Sections, cell};
 use crate::kernel::frame::Frame;
 use crate::kernel::sum::Sum;
 use crate::mesh::volume;
-use crate::model::{Chain, Design, Extent, Line, Note, Part, Sheet, Side, Slope, Terrain};
+use crate::model::{Design, Extent, Line, Note, Part, Sheet, Side, Slope, Terrain};
 use crate::slope::levels;
 use crate::surface::{self, Surface, SurfaceError, Watch};
 use crate::terrain::inspect;
@@ -146,7 +146,7 @@ impl<'a> Site<'a> {
         })?;
         let patch = self.patch(&shape, whole);
         let mut notes = inspected(&patch, &self.terrain, self.label)?;
-        let stations = Stations::new(self.axes(), options.stations)?;
+        let stations = Stations::new(axes(self.line, &self.terrain.frame), options.stations)?;
         let mut feeder = Feeder::new(&shape, &stations, options.keep);
         let mut works = Flood::run(&shape, &patch, whole, &mut feeder);
         let fed = feeder.finish();
@@ -201,7 +201,12 @@ impl<'a> Site<'a> {
         if !designs.iter().any(free) {
             return Ok(designs.to_vec());
         }
-        let coarse = |design: &Design| Design { tolerance: COARSER * design.tolerance, interval: None, ..design.clone() };
+        let coarse = |design: &Design| Design {
+            tolerance: COARSER * design.tolerance,
+            interval: None,
+            levels: Vec::new(),
+            ..design.clone()
+        };
         let coarse = self.in_common(&designs.iter().map(coarse).collect::<Vec<_>>());
         // Whatever is wrong is found again, and told, in the build proper.
         let Ok(surfaces) = self.surfaces(&coarse, watch) else { return Ok(designs.to_vec()) };
@@ -253,7 +258,7 @@ impl<'a> Site<'a> {
         let common = |design: &Design| Design {
             companion: designs.iter().find(|d| d.sheet != design.sheet).map(|d| d.slope),
             frame: Some(self.terrain.frame),
-            interval: design.interval.or(Some(interval)),
+            interval: design.interval.or_else(|| design.levels.is_empty().then_some(interval)),
             tolerance,
             ..design.clone()
         };
@@ -293,25 +298,6 @@ impl<'a> Site<'a> {
             }
         }
         Ok(surfaces)
-    }
-
-    /// The chains as axes: of a road its centre line.
-    fn axes(&self) -> Vec<Axis> {
-        let local = |p: &DVec3| self.terrain.frame.to_local(*p).truncate();
-        let own = |chain: &Chain| {
-            let stations = chain.stations();
-            let closing = chain.closed().then(|| &chain.vertices[0]);
-            let line = chain.vertices.iter().chain(closing).map(local).zip(stations.iter().copied()).collect();
-            Axis { name: chain.name.clone(), length: stations.last().copied().unwrap_or(0.0), closed: chain.closed(), line }
-        };
-        let of_road = |(index, chain): (usize, &Chain)| {
-            let axis = chain.axis.as_ref()?;
-            let centre = self.line.breaklines.iter().find(|b| b.of == Some(index) && b.stations.is_some())?;
-            let stations = centre.stations.iter().flatten().copied();
-            let line = centre.vertices.iter().map(local).zip(stations).collect();
-            Some(Axis { name: axis.name.clone(), length: axis.length, closed: false, line })
-        };
-        self.line.chains.iter().enumerate().map(|(i, chain)| of_road((i, chain)).unwrap_or_else(|| own(chain))).collect()
     }
 
     fn check_covered(&self, shape: &Shape, fed: &Fed, options: &Options) -> Result<(), GroundError> {

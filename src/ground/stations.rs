@@ -1,7 +1,9 @@
 //! Stations: where along the axes figures are told apart.
 
 use super::Axis;
-use glam::DVec2;
+use crate::kernel::frame::Frame;
+use crate::model::{Chain, Line};
+use glam::{DVec2, DVec3};
 use std::fmt;
 
 /// Most breaks inside the axes, all together. Each begins a row of the report; a road of 1000 km has as many at 10 m.
@@ -95,6 +97,25 @@ fn breaks(length: f64, spacing: Option<f64>) -> Vec<f64> {
     breaks
 }
 
+/// The chains of a line as axes, in a frame: of a road its centre line.
+pub fn axes(line: &Line, frame: &Frame) -> Vec<Axis> {
+    let local = |p: &DVec3| frame.to_local(*p).truncate();
+    let own = |chain: &Chain| {
+        let stations = chain.stations();
+        let closing = chain.closed().then(|| &chain.vertices[0]);
+        let line = chain.vertices.iter().chain(closing).map(local).zip(stations.iter().copied()).collect();
+        Axis { name: chain.name.clone(), length: stations.last().copied().unwrap_or(0.0), closed: chain.closed(), line }
+    };
+    let of_road = |(index, chain): (usize, &Chain)| {
+        let axis = chain.axis.as_ref()?;
+        let centre = line.breaklines.iter().find(|b| b.of == Some(index) && b.stations.is_some())?;
+        let stations = centre.stations.iter().flatten().copied();
+        let line = centre.vertices.iter().map(local).zip(stations).collect();
+        Some(Axis { name: axis.name.clone(), length: axis.length, closed: false, line })
+    };
+    line.chains.iter().enumerate().map(|(i, chain)| of_road((i, chain)).unwrap_or_else(|| own(chain))).collect()
+}
+
 /// The interval a station lies in: at a break the one that begins there, except at the very end.
 pub(super) fn interval_of(breaks: &[f64], station: f64) -> usize {
     let begun = breaks.partition_point(|b| *b <= station);
@@ -102,7 +123,7 @@ pub(super) fn interval_of(breaks: &[f64], station: f64) -> usize {
 }
 
 /// Point and unit direction of an axis at a station. At a vertex the direction is the mean of both neighbours.
-pub(super) fn place(axis: &Axis, station: f64) -> Option<(DVec2, DVec2)> {
+pub fn place(axis: &Axis, station: f64) -> Option<(DVec2, DVec2)> {
     let line = &axis.line;
     let direction = |i: usize| {
         let ends = line.get(i).zip(line.get(i + 1));

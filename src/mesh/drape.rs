@@ -86,8 +86,7 @@ impl<'a> Drape<'a> {
         near.dedup();
         let along = (to - from) / length;
         let crossed = |t: u32| {
-            let corners = self.corners(t);
-            let (a, b) = crossing(&corners, from, along, length)?;
+            let (a, b) = self.crossing(t, from, along, length)?;
             Some((a, b, t))
         };
         let mut pieces: Vec<(f64, f64, u32)> = near.into_iter().filter_map(crossed).collect();
@@ -112,6 +111,34 @@ impl<'a> Drape<'a> {
         }
         runs
     }
+
+    /// Where a ray from `from` crosses a triangle, as distances from its beginning up to `length`.
+    ///
+    /// Edges are taken from the lower vertex number to the higher, so that triangles on both sides of one agree to the last bit on
+    /// where it is crossed, also at a grazing angle.
+    fn crossing(&self, t: u32, from: DVec2, along: DVec2, length: f64) -> Option<(f64, f64)> {
+        let corners = self.triangles[t as usize];
+        let (mut lo, mut hi) = (0.0_f64, length);
+        for i in 0..3 {
+            let (v, w) = (corners[i], corners[(i + 1) % 3]);
+            let [a, b] = [v.min(w), v.max(w)].map(|v| self.vertices[v as usize].truncate());
+            let edge = b - a;
+            let sign = if v < w { 1.0 } else { -1.0 };
+            // Left of the edge: side + s·rate ≥ 0.
+            let (side, rate) = (sign * edge.perp_dot(from - a), sign * edge.perp_dot(along));
+            let tie = ON_EDGE * edge.length() * (edge.length() + (from - a).length());
+            if rate.abs() * length <= tie {
+                if side < -tie {
+                    return None;
+                }
+            } else if rate > 0.0 {
+                lo = lo.max(-side / rate);
+            } else {
+                hi = hi.min(-side / rate);
+            }
+        }
+        (hi > lo).then_some((lo, hi))
+    }
 }
 
 /// Whether a triangle holds a point, its edges included.
@@ -127,28 +154,6 @@ fn height([a, b, c]: &[DVec3; 3], p: DVec2) -> f64 {
     let (u, v, w) = ((*b - *a).truncate(), (*c - *a).truncate(), p - a.truncate());
     let det = u.perp_dot(v);
     a.z + (w.perp_dot(v) * (b.z - a.z) + u.perp_dot(w) * (c.z - a.z)) / det
-}
-
-/// Where a ray from `from` crosses a triangle, as distances from its beginning up to `length`.
-fn crossing(corners: &[DVec3; 3], from: DVec2, along: DVec2, length: f64) -> Option<(f64, f64)> {
-    let (mut lo, mut hi) = (0.0_f64, length);
-    for i in 0..3 {
-        let (a, b) = (corners[i].truncate(), corners[(i + 1) % 3].truncate());
-        let edge = b - a;
-        // Left of the edge: side + s·rate ≥ 0.
-        let (side, rate) = (edge.perp_dot(from - a), edge.perp_dot(along));
-        let tie = ON_EDGE * edge.length() * (edge.length() + (from - a).length());
-        if rate.abs() * length <= tie {
-            if side < -tie {
-                return None;
-            }
-        } else if rate > 0.0 {
-            lo = lo.max(-side / rate);
-        } else {
-            hi = hi.min(-side / rate);
-        }
-    }
-    (hi > lo).then_some((lo, hi))
 }
 
 #[cfg(test)]

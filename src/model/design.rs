@@ -51,8 +51,11 @@ pub struct Design {
     pub side_of_rings: Side,
     /// Where the slope ends.
     pub extent: Extent,
-    /// Spacing of the level curves; levels are its whole multiples. `None`: a round number that gives 10 to 25 levels.
+    /// Spacing of the level curves; levels are its whole multiples. `None`: a round number that gives 10 to 25 levels, or none
+    /// beside those of `levels`.
     pub interval: Option<f64>,
+    /// Elevations of further level curves, in any order.
+    pub levels: Vec<f64>,
     /// Bound for the height error of the whole mesh against the given line, in the length unit.
     pub tolerance: f64,
     /// The slope of another surface through the same line that is to share every point of it: the line is then simplified

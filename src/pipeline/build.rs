@@ -2,13 +2,15 @@
 
 use super::watch::{CHECKING, Observer, PREPARING, READING, READING_GROUND, Stopwatch, WRITING};
 use super::{BuriedError, Error, Given, GroundInput, LineInput, Wishes, check_steepness, figures, on_ground, read_line};
-use crate::ground::{Pieces, Stations, Tallied};
-use crate::model::{Bulking, Line, LineFeature, Terrain, Tin};
-use crate::plot::{OnGround, Scene};
+use crate::ground::{Pieces, Stations, Tallied, axes};
+use crate::model::{Bulking, Line, LineFeature, Note, Sheet, Terrain, Tin};
+use crate::plot::{self, Drawing, OnGround, Scene};
 use crate::read::Source;
 use crate::report::{CrossfallFigures, Report, ReportFormat};
+use crate::setout::{self, Stake};
+use crate::slope::levels::LEVEL_SNAP;
 use crate::surface;
-use crate::write::{Delivery, MeshFormat, Outputs, Target, WriteError, write_lines};
+use crate::write::{Delivery, MeshFormat, Outputs, Target, WriteError, write_lines, write_stakes};
 use std::path::Path;
 
 /// A surface to be built, and where to put it.
@@ -22,7 +24,7 @@ pub struct BuildJob {
     pub ground: Option<GroundInput>,
     /// Elevation of the plane the volumes are taken against; `None`: where the slopes end.
     pub reference: Option<f64>,
-    /// Spacing of the stations that volumes are told apart by; with existing ground only.
+    /// Spacing of the stations that volumes are told apart by, with existing ground, and of slope stakes.
     pub stations: Option<f64>,
     /// How the soil changes its volume, if that is to be reckoned with; with existing ground only.
     pub bulking: Option<Bulking>,
@@ -34,6 +36,12 @@ pub struct BuildJob {
     pub finished: Vec<(Target, MeshFormat)>,
     /// Where line work goes.
     pub lines: Vec<Target>,
+    /// Where slope stakes go; they need stations.
+    pub stakes: Vec<Target>,
+    /// Where drawings go.
+    pub plots: Vec<(Target, Drawing)>,
+    /// Stations of the cross-sections to be drawn; none: all of `stations`.
+    pub sections: Vec<f64>,
     /// Where reports go.
     pub reports: Vec<(Target, ReportFormat)>,
 }
@@ -53,6 +61,8 @@ enum Content {
     Mesh(MeshFormat),
     Finished(MeshFormat),
     Lines,
+    Stakes,
+    Plot(Drawing),
     Report(ReportFormat),
 }
 
@@ -78,6 +88,11 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
         report.line.crossfall = Some(CrossfallFigures { left: road.crossfall.left, right: road.crossfall.right });
     }
 
+    let stakes = match job.stakes.is_empty() {
+        true => Vec::new(),
+        false => staked(job, &line, &design, survey.as_ref())?,
+    };
+
     watch.stage_of(WRITING);
     let crs = source.crs.as_deref();
     let scene = Scene {
@@ -87,6 +102,7 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
         line: &line,
         design: &design,
         lines: &lines,
+        bulking: job.bulking,
         ground: survey.as_ref().map(Survey::scene),
     };
     let mut put = |index: usize, report: &Report| -> Result<Delivery, WriteError> {
@@ -94,6 +110,8 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
             Content::Mesh(format) => format.write(out, &design),
             Content::Finished(format) => finished.as_ref().map_or(Ok(()), |tin| format.write(out, tin)),
             Content::Lines => write_lines(out, &lines, crs).map(drop),
+            Content::Stakes => write_stakes(out, &stakes),
+            Content::Plot(drawing) => Ok(out.write_all(plot::file(&scene, drawing, &job.sections).as_bytes())?),
             Content::Report(format) => format.write(out, report, &scene),
         })
     };
@@ -107,6 +125,33 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     stamp(&mut report, &watch);
     let written = targets.into_iter().filter(|target| !target.is_stream()).collect();
     Ok(Built { report, written })
+}
+
+/// The note about elevations that were asked for and have no level curve.
+pub(super) fn missed_levels(wishes: &[Wishes], levels: &[f64]) -> Option<Note> {
+    let asked = wishes.first().map_or(&[][..], |wishes| &wishes.levels);
+    let met = |z: f64| levels.iter().any(|level| (level - z).abs() <= LEVEL_SNAP);
+    let missed: Vec<String> = asked.iter().filter(|z| !met(**z)).map(f64::to_string).collect();
+    let message = || format!("there is no level curve at {}: the slopes do not cross this height", missed.join(", "));
+    (!missed.is_empty()).then(|| Note::new("level-missed", message()))
+}
+
+/// The slope stakes of a design.
+fn staked(job: &BuildJob, line: &Line, design: &Tin, survey: Option<&Survey>) -> Result<Vec<Stake>, Error> {
+    let slope = |sheet| job.wishes.iter().find(|wishes| wishes.sheet == sheet).map(|wishes| wishes.slope);
+    let own = match survey {
+        Some(_) => None,
+        None => Some(Stations::new(axes(line, &design.frame), job.stations)?),
+    };
+    let Some(stations) = survey.map(|survey| &survey.stations).or(own.as_ref()) else { return Ok(Vec::new()) };
+    Ok(setout::stakes(&setout::Lie {
+        line,
+        design,
+        ground: survey.map(|survey| &survey.terrain),
+        stations,
+        slopes: setout::Slopes { fill: slope(Sheet::Falling), cut: slope(Sheet::Rising) },
+        tolerance: job.input.tolerance,
+    }))
 }
 
 /// What is written.
@@ -136,7 +181,7 @@ impl Survey {
 impl BuildJob {
     /// Whether an output needs ground and pieces of the works, beyond meshes, line work and figures.
     pub(super) fn draws(&self) -> bool {
-        self.reports.iter().any(|(_, format)| format.draws())
+        !self.stakes.is_empty() || !self.plots.is_empty() || self.reports.iter().any(|(_, format)| format.draws())
     }
 }
 
@@ -156,6 +201,7 @@ fn alone(job: &BuildJob, line: &Line, source: &Source, watch: &Stopwatch<'_>) ->
     if let Some(note) = figures::buried_note(&buried) {
         watch.note(&note);
     }
+    missed_levels(&job.wishes, &surface.levels).iter().for_each(|note| watch.note(note));
     let report = figures::report(line, source, &design, &surface, &watch.notes());
     Ok(Product { design: surface.tin, finished: None, lines: surface.lines, survey: None, report })
 }
@@ -169,7 +215,9 @@ fn wanted(job: &BuildJob) -> Vec<(Target, Content)> {
     let finished = job.finished.iter().map(|(target, format)| (target.clone(), Content::Finished(*format)));
     let lines = job.lines.iter().map(|target| (target.clone(), Content::Lines));
     let reports = job.reports.iter().map(|(target, format)| (target.clone(), Content::Report(*format)));
-    meshes.chain(finished).chain(lines).chain(reports).collect()
+    let stakes = job.stakes.iter().map(|target| (target.clone(), Content::Stakes));
+    let plots = job.plots.iter().map(|(target, drawing)| (target.clone(), Content::Plot(*drawing)));
+    meshes.chain(finished).chain(lines).chain(stakes).chain(plots).chain(reports).collect()
 }
 
 /// The order in which outputs are written. Files first, because they can still be taken back; standard output last; of each kind

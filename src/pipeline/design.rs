@@ -46,6 +46,8 @@ pub struct Wishes {
     pub extent: Option<Extent>,
     /// Spacing of the level curves; positive.
     pub interval: Option<f64>,
+    /// Elevations of further level curves.
+    pub levels: Vec<f64>,
     /// Bound for the height error; positive.
     pub tolerance: f64,
 }
@@ -101,7 +103,11 @@ impl Wishes {
                 smallest,
             });
         }
-        let levels = self.interval.map_or(CHOSEN_LEVELS, |interval| height / interval);
+        let levels = match self.interval {
+            Some(interval) => height / interval + self.levels.len() as f64,
+            None if self.levels.is_empty() => CHOSEN_LEVELS,
+            None => self.levels.len() as f64,
+        };
         let tolerance = self.tolerance(line, notes);
         let points = levels * arc_points(deepest, tolerance);
         if points > MOST_ARC_POINTS {
@@ -115,6 +121,7 @@ impl Wishes {
             extent,
             interval: self.interval,
             tolerance,
+            levels: self.levels.clone(),
             companion: None,
             frame: None,
         })
@@ -236,7 +243,7 @@ mod tests {
 
     fn wishes() -> Wishes {
         let slope = Slope::from_ratio(0.5).unwrap();
-        Wishes { slope, sheet: Sheet::Falling, side: None, extent: None, interval: None, tolerance: 0.01 }
+        Wishes { slope, sheet: Sheet::Falling, side: None, extent: None, interval: None, levels: Vec::new(), tolerance: 0.01 }
     }
 
     #[test]

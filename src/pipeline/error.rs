@@ -3,7 +3,7 @@
 use super::DesignError;
 use super::volume::ComparisonError;
 use crate::formation::FormationError;
-use crate::ground::GroundError;
+use crate::ground::{GroundError, TooManyStations};
 use crate::model::{Defects, Slope};
 use crate::read::ReadError;
 use crate::report::BuriedStretch;
@@ -47,6 +47,9 @@ pub enum Error {
         /// Why.
         cause: Box<GroundError>,
     },
+    /// Stations too close together.
+    #[error(transparent)]
+    Stations(#[from] TooManyStations),
     /// Stretches of the line are buried, and that was not to be.
     #[error(transparent)]
     Buried(#[from] BuriedError),

@@ -1,6 +1,6 @@
 //! A line on existing ground: read → reach → designs → works → report.
 
-use super::build::{BuildJob, Product, Survey};
+use super::build::{BuildJob, Product, Survey, missed_levels};
 use super::watch::Stopwatch;
 use super::{Error, Wishes, check_steepness, figures, ground};
 use crate::ground::{Options, Site};
@@ -59,6 +59,7 @@ pub(super) fn build(
         cause: Box::new(cause),
     })?;
     built.notes.iter().for_each(|note| watch.note(note));
+    missed_levels(&job.wishes, &built.levels).iter().for_each(|note| watch.note(note));
     let inputs = figures::Inputs { line, source, ground: &ground_source, terrain, area };
     let report = figures::ground_report(&inputs, job, &designs, &built, &watch.notes());
     let survey = built.terrain.zip(built.pieces).map(|(terrain, pieces)| Survey {

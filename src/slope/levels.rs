@@ -37,6 +37,27 @@ impl Levels {
         Self { heights }
     }
 
+    /// The same with further heights, where they lie strictly between `end` and `top`. Of heights within [`LEVEL_SNAP`] of each
+    /// other one remains: a further one before one that was there.
+    pub fn with(self, further: &[f64], end: f64, top: f64) -> Self {
+        let inside = |c: &f64| *c > end + LEVEL_SNAP && *c < top - LEVEL_SNAP;
+        let mut all: Vec<(f64, bool)> = further.iter().copied().filter(inside).map(|c| (c, true)).collect();
+        all.extend(self.heights.into_iter().map(|c| (c, false)));
+        all.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut heights: Vec<(f64, bool)> = Vec::with_capacity(all.len());
+        for level in all {
+            match heights.last_mut() {
+                Some(last) if last.0 - level.0 <= LEVEL_SNAP => {
+                    if level.1 && !last.1 {
+                        *last = level;
+                    }
+                }
+                _ => heights.push(level),
+            }
+        }
+        Self { heights: heights.into_iter().map(|(c, _)| c).collect() }
+    }
+
     /// Where `z` stands.
     pub fn code(&self, z: f64) -> Code {
         let above = self.heights.partition_point(|&c| c > z + LEVEL_SNAP);
@@ -93,6 +114,15 @@ mod tests {
         assert_eq!(levels.crossed(2.0, 1.0).count(), 0);
         assert_eq!(levels.crossed(2.0 + 1e-7, 0.0).collect::<Vec<_>>(), [1]);
         assert_eq!(levels.crossed(1.4, 1.6).count(), 0);
+    }
+
+    #[test]
+    fn further_heights_stand_among_the_others() {
+        let levels = |further: &[f64]| Levels::between(-1.0, 3.0, 1.0).with(further, -1.0, 3.0).heights;
+        assert_eq!(levels(&[1.25, 2.5]), [2.5, 2.0, 1.25, 1.0, 0.0]);
+        // The end, the top and what lies beyond are no levels; one within rounding of another takes its place.
+        assert_eq!(levels(&[3.0, -1.0, 7.0, 1.0 + 1e-7, 0.0 - 1e-7]), [2.0, 1.0 + 1e-7, -1e-7]);
+        assert_eq!(Levels { heights: vec![] }.with(&[0.5, 0.5, 0.75], 0.0, 1.0).heights, [0.75, 0.5]);
     }
 
     #[test]

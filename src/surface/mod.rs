@@ -272,7 +272,7 @@ fn made(line: &Line, design: &Design, plane: Option<&Plane>, watch: &dyn Watch) 
         return Err(SurfaceError::NoSide);
     }
     let ends = Ends::new(&network, line, design)?;
-    let levels = ends.levels(design)?;
+    let levels = ends.levels(design, network.sign)?;
     go_on("index")?;
     let fans = Fans::new(&network, k);
     let index = trim::index_of(&network, k);
@@ -388,7 +388,12 @@ impl Ends {
         })
     }
 
-    fn levels(&self, design: &Design) -> Result<Levels, SurfaceError> {
+    /// `sign`: what heights of the falling sheet are multiplied with to get elevations.
+    fn levels(&self, design: &Design, sign: f64) -> Result<Levels, SurfaceError> {
+        let chosen: Vec<f64> = design.levels.iter().map(|z| sign * z).collect();
+        if design.interval.is_none() && !chosen.is_empty() {
+            return Ok(Levels { heights: Vec::new() }.with(&chosen, self.lowest, self.top));
+        }
         let range = self.top - self.lowest;
         let interval = design.interval.unwrap_or_else(|| levels::round_interval(range));
         let count = (range / interval).floor();
@@ -398,6 +403,6 @@ impl Ends {
             let unit = 10_f64.powf(least.log10().floor() - 1.0);
             return Err(SurfaceError::TooManyLevels { interval, count, least: (least / unit).ceil() * unit });
         }
-        Ok(Levels::between(self.lowest, self.top, interval))
+        Ok(Levels::between(self.lowest, self.top, interval).with(&chosen, self.lowest, self.top))
     }
 }

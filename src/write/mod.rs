@@ -10,6 +10,7 @@ pub mod obj;
 pub mod ply;
 pub mod points;
 pub mod raster;
+pub mod stakes;
 mod target;
 
 pub use atomic::{Delivery, Outputs, Target, discard_unfinished};
@@ -19,6 +20,7 @@ pub use obj::write_obj;
 pub use ply::write_ply;
 pub use points::write_points;
 pub use raster::{Anchor, GridLayout, write_raster};
+pub use stakes::{STAKE_COLUMNS, write_stakes};
 
 #[cfg(test)]
 pub(crate) mod testing;

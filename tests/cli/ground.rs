@@ -22,6 +22,62 @@ fn columns_of_the_ground() {
     site.run("build raised.geojson --slope 1:1.5 --terrain points.csv --terrain-order xyz").done();
 }
 
+/// Catch points lie on the ground, where the sections of the report end; along rulings the slope is that asked for.
+#[test]
+fn slope_stakes_agree_with_the_sections() {
+    let site = Site::new();
+    let fixtures = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures");
+    let [line, ground] = ["hill_road.geojson", "ground.obj"].map(|name| fixtures.join(name).display().to_string());
+    let job = ["build", &line, "--width", "7", "--terrain", &ground, "--cut-slope", "1:1", "--fill-slope", "1:1.5"];
+    let outputs = ["--stations", "20", "--stakes", "stakes.csv", "--report", "road.json", "--level", "620,99"];
+    let run = site.run_args(&[&job[..], &outputs[..]].concat(), "");
+    run.done();
+    assert!(run.stderr.contains("note[level-missed]: there is no level curve at 99: "), "{}", run.stderr);
+    let report: serde_json::Value = serde_json::from_str(&site.read("road.json")).unwrap();
+    assert_eq!(report["levels"], serde_json::json!([620.0]));
+    let text = site.read("stakes.csv");
+    let mut rows = text.lines().map(|row| row.split(',').collect::<Vec<_>>());
+    let header = rows.next().unwrap();
+    let of = |row: &[&str], name: &str| row[header.iter().position(|h| *h == name).unwrap()].to_owned();
+    let number = |row: &[&str], name: &str| of(row, name).parse::<f64>().unwrap();
+    let mut sections = 0;
+    for row in rows {
+        assert_eq!(of(&row, "ends"), "ground");
+        let asked = if of(&row, "part") == "cut" { 1.0 } else { 1.5 };
+        let (one_in, station) = (number(&row, "one_in"), number(&row, "station"));
+        if of(&row, "along") == "ruling" {
+            assert!((one_in - asked).abs() < 1e-6, "{row:?}");
+            continue;
+        }
+        // No section is steeper than the slope itself, but for the cones at the ends of the road.
+        let inside = station > 0.0 && station < report["line"]["length"].as_f64().unwrap();
+        assert!(!inside || one_in >= asked - 1e-9, "{row:?}");
+        let intervals = report["stations"].as_array().unwrap();
+        let at = |interval: &&serde_json::Value, end| interval[end].as_f64() == Some(station);
+        let begins = intervals.iter().find(|i| at(i, "from")).map(|i| &i["section"]["from"]);
+        let section = begins.or_else(|| intervals.iter().find(|i| at(i, "to")).map(|i| &i["section"]["to"])).unwrap();
+        let reach = section[of(&row, "side")].as_f64().unwrap();
+        assert!((number(&row, "catch_offset") - reach).abs() < 1e-7, "{row:?} {reach}");
+        sections += 1;
+    }
+    // 233 long: 13 stations, two sides.
+    assert_eq!(sections, 26);
+}
+
+/// Stakes need stations; stations need ground or stakes.
+#[test]
+fn stakes_without_stations_or_ground() {
+    let site = Site::new();
+    let run = site.run("build road.geojson --slope 1:1.5 --stakes s.csv");
+    assert_eq!(run.code, 2);
+    assert!(run.stderr.contains("--stations <D>"), "{}", run.stderr);
+    let run = site.run("build road.geojson --slope 1:1.5 --stakes s.txt --stations 25");
+    assert_eq!(run.code, 2);
+    assert!(run.stderr.contains("end the name of a table of slope stakes in `.csv`"), "{}", run.stderr);
+    site.run("build road.geojson --slope 1:1.5 --stakes s.csv --stations 25").done();
+    assert!(site.read("s.csv").lines().nth(1).is_some_and(|row| row.ends_with(",end")), "{}", site.read("s.csv"));
+}
+
 /// Only cut slopes for a pad that stands above the ground: it gets walls, and the reader is told.
 #[test]
 fn walls_are_told() {

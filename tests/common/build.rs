@@ -63,6 +63,7 @@ pub(crate) fn design(k: f64, extent: Extent) -> Design {
         extent,
         interval: None,
         tolerance: 1e-3,
+        levels: Vec::new(),
         companion: None,
         frame: None,
     }

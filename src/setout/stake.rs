@@ -1,0 +1,315 @@
+//! Slope stakes: from the hinge of every station to where its slope meets the ground.
+
+use super::hinge::{Hinge, Ruling};
+use crate::ground::{Stations, place};
+use crate::mesh::drape::{Drape, Run};
+use crate::model::{Line, Part, Slope, Terrain, Tin};
+use glam::{DVec2, DVec3};
+
+/// A slope begins within this distance of its hinge, in the length unit: rounding, and the simplified line.
+const START: f64 = 1e-4;
+
+/// A planar strip falls along its ruling by the slope, up to this share. Creases where rulings turn by less than 0.8° pass for
+/// none.
+const STRIP_RATE: f64 = 1e-4;
+
+/// The same for cones, which are drawn as wedges: half a wedge of 0.115 rad changes the fall by 1 − cos 0.0575.
+const CONE_RATE: f64 = 2e-3;
+
+/// Side of the axis, seen along it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hand {
+    /// Left.
+    Left,
+    /// Right.
+    Right,
+}
+
+impl Hand {
+    /// Normal of a direction on this side.
+    pub(super) fn outward(self, along: DVec2) -> DVec2 {
+        match self {
+            Self::Left => along.perp(),
+            Self::Right => -along.perp(),
+        }
+    }
+
+    /// The word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Right => "right",
+        }
+    }
+}
+
+/// Which way a stake is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Along {
+    /// Down (up) the line of steepest descent: the slope is the one asked for.
+    Ruling,
+    /// Perpendicular to the axis, as a section shows it: on a grade the slope is flatter.
+    Perpendicular,
+}
+
+impl Along {
+    /// The word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Ruling => "ruling",
+            Self::Perpendicular => "perpendicular",
+        }
+    }
+}
+
+/// What ends a slope on its way from the hinge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ends {
+    /// It meets the ground.
+    Ground,
+    /// It ends without meeting ground: where it was asked to, or at the edge of the ground.
+    End,
+    /// The slope of another part of the line takes over, at a ridge or a valley. Rulings only.
+    Crease,
+    /// It runs into a platform.
+    Platform,
+}
+
+impl Ends {
+    /// The word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Ground => "ground",
+            Self::End => "end",
+            Self::Crease => "crease",
+            Self::Platform => "platform",
+        }
+    }
+}
+
+/// One measurement from a hinge point to the end of its slope. Points in world coordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stake {
+    /// Name of the axis.
+    pub chain: String,
+    /// Station on the axis.
+    pub station: f64,
+    /// Side of the axis.
+    pub hand: Hand,
+    /// Which way it is measured.
+    pub along: Along,
+    /// Distance of the hinge from the axis, in plan.
+    pub offset: f64,
+    /// Where the slope leaves the line.
+    pub hinge: DVec3,
+    /// Fill or cut; `None` where the hinge is on the ground and there is no slope.
+    pub part: Option<Part>,
+    /// Where the slope ends.
+    pub catch: DVec3,
+    /// Distance of the catch point from the axis, perpendicular to it.
+    pub catch_offset: f64,
+    /// How far the catch point lies ahead of the station (behind: negative), along the axis' direction there.
+    pub catch_ahead: f64,
+    /// What ends the slope.
+    pub ends: Ends,
+}
+
+impl Stake {
+    /// Distance from hinge to catch point in plan.
+    pub fn distance(&self) -> f64 {
+        self.hinge.truncate().distance(self.catch.truncate())
+    }
+
+    /// Height of the catch point above the hinge; negative below.
+    pub fn height(&self) -> f64 {
+        self.catch.z - self.hinge.z
+    }
+
+    /// Distance from hinge to catch point in space.
+    pub fn slope_distance(&self) -> f64 {
+        self.hinge.distance(self.catch)
+    }
+
+    /// Run per unit of rise, positive; `None` where there is no rise.
+    pub fn one_in(&self) -> Option<f64> {
+        let ratio = self.distance() / self.height().abs();
+        ratio.is_finite().then_some(ratio).filter(|r| *r > 0.0)
+    }
+
+    /// Direction from hinge to catch point, in degrees clockwise from grid north, 0 to 360; `None` where they are one.
+    pub fn bearing(&self) -> Option<f64> {
+        let way = (self.catch - self.hinge).truncate();
+        (way != DVec2::ZERO).then(|| way.x.atan2(way.y).to_degrees().rem_euclid(360.0))
+    }
+}
+
+/// The slopes that were asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Slopes {
+    /// Of falling slopes, where they were built.
+    pub fill: Option<Slope>,
+    /// Of rising slopes.
+    pub cut: Option<Slope>,
+}
+
+/// How the design lies.
+#[derive(Clone, Copy, Debug)]
+pub struct Lie<'a> {
+    /// The given line.
+    pub line: &'a Line,
+    /// Platform and slopes; with ground cut off at it.
+    pub design: &'a Tin,
+    /// The ground, in the frame of the design.
+    pub ground: Option<&'a Terrain>,
+    /// The axes with their stations, in that frame.
+    pub stations: &'a Stations,
+    /// The slopes asked for.
+    pub slopes: Slopes,
+    /// How far heights may differ and still be the same, in the length unit.
+    pub tolerance: f64,
+}
+
+/// The slope stakes of every station and side: along the ruling, then perpendicular. Sides without a slope have none.
+///
+/// Heights are those of the design given, so catch points lie on the daylight line of the mesh as written.
+pub fn stakes(lie: &Lie<'_>) -> Vec<Stake> {
+    let (vertices, triangles) = (&lie.design.vertices, &lie.design.triangles);
+    let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let bounds = vertices.iter().fold(empty, |(lo, hi), v| (lo.min(v.truncate()), hi.max(v.truncate())));
+    let walk = Walk {
+        lie,
+        design: Drape::new(vertices, triangles, None),
+        ground: lie.ground.map(|ground| Drape::new(&ground.vertices, &ground.triangles, Some(bounds))),
+        // Farther than the mesh is wide.
+        far: 2.0 * (bounds.1 - bounds.0).length().max(1.0),
+    };
+    let mut found = Vec::new();
+    for (i, axis) in lie.stations.axes().iter().enumerate() {
+        let Some(chain) = lie.line.chains.get(i) else { continue };
+        let breaks = lie.stations.breaks(i);
+        // Both ends of a ring are one place.
+        let breaks = if axis.closed { &breaks[..breaks.len().saturating_sub(1)] } else { breaks };
+        for &station in breaks {
+            let Some((point, along)) = place(axis, station) else { continue };
+            for hand in [Hand::Left, Hand::Right] {
+                let outward = hand.outward(along);
+                let frame = &lie.design.frame;
+                let hinge = match chain.axis {
+                    Some(_) => Hinge::on_edge(chain, frame, hand, point, outward),
+                    None => Hinge::on_line(chain, frame, station),
+                };
+                let Some(hinge) = hinge else { continue };
+                for (way, reached) in walk.both(&hinge, hand, outward) {
+                    let off = reached.catch.truncate() - point;
+                    found.push(Stake {
+                        chain: axis.name.clone(),
+                        station,
+                        hand,
+                        along: way,
+                        offset: (hinge.at.truncate() - point).length(),
+                        hinge: frame.to_world(hinge.at),
+                        part: reached.part,
+                        catch: frame.to_world(reached.catch),
+                        catch_offset: off.dot(outward),
+                        catch_ahead: off.dot(along),
+                        ends: reached.ends,
+                    });
+                }
+            }
+        }
+    }
+    found
+}
+
+/// Where a walk down a slope ended, in the local frame.
+struct Reached {
+    part: Option<Part>,
+    catch: DVec3,
+    ends: Ends,
+}
+
+/// Walks on the design.
+struct Walk<'a> {
+    lie: &'a Lie<'a>,
+    design: Drape<'a>,
+    ground: Option<Drape<'a>>,
+    far: f64,
+}
+
+impl Walk<'_> {
+    /// From a hinge along its ruling, and perpendicular.
+    fn both(&self, hinge: &Hinge, hand: Hand, outward: DVec2) -> Vec<(Along, Reached)> {
+        let Some((part, slope)) = self.part_at(hinge, outward) else {
+            return match self.on_ground(hinge.at) {
+                true => [Along::Ruling, Along::Perpendicular]
+                    .map(|way| (way, Reached { part: None, catch: hinge.at, ends: Ends::Ground }))
+                    .into(),
+                false => Vec::new(),
+            };
+        };
+        let ruling = match hinge.ruling(hand, part, slope) {
+            Some(Ruling::Goes { direction, cone }) => {
+                let share = if cone { CONE_RATE } else { STRIP_RATE };
+                let fall = if part == Part::CutSlope { slope.ratio() } else { -slope.ratio() };
+                self.down(hinge.at, direction, part, Some((fall, share * slope.ratio())))
+            }
+            Some(Ruling::Closed) => Some(Reached { part: Some(part), catch: hinge.at, ends: Ends::Crease }),
+            None => None,
+        };
+        let across = self.down(hinge.at, outward, part, None);
+        let ways = [(Along::Ruling, ruling), (Along::Perpendicular, across)];
+        ways.into_iter().filter_map(|(way, reached)| Some((way, reached?))).collect()
+    }
+
+    /// The part of the slope that leaves a hinge outwards.
+    fn part_at(&self, hinge: &Hinge, outward: DVec2) -> Option<(Part, Slope)> {
+        let run = self.run(hinge.at, outward)?;
+        let part = stretches(&run).find(|(_, to, _)| to.x > START).map(|(.., t)| self.lie.design.parts[t as usize])?;
+        let slope = match part {
+            Part::FillSlope => self.lie.slopes.fill,
+            Part::CutSlope => self.lie.slopes.cut,
+            _ => None,
+        };
+        Some((part, slope?))
+    }
+
+    /// The design from a hinge on in a direction, where it begins there.
+    fn run(&self, hinge: DVec3, direction: DVec2) -> Option<Run> {
+        let from = hinge.truncate();
+        self.design.along(from, from + direction * self.far).into_iter().next().filter(|run| run.points[0].x <= START)
+    }
+
+    /// From a hinge over one part until it ends; with `fall`, height per distance and how much it may vary, no farther than that
+    /// goes on.
+    fn down(&self, hinge: DVec3, direction: DVec2, part: Part, fall: Option<(f64, f64)>) -> Option<Reached> {
+        let run = self.run(hinge, direction)?;
+        let at = |p: DVec2| (hinge.truncate() + direction * p.x).extend(p.y);
+        let mut last = run.points[0];
+        for (from, to, t) in stretches(&run).filter(|(from, to, _)| to.x > START && to.x > from.x) {
+            if self.lie.design.parts[t as usize] != part {
+                let ends = if from.x <= START { return None } else { Ends::Platform };
+                return Some(Reached { part: Some(part), catch: at(last), ends });
+            }
+            let rate = (to.y - from.y) / (to.x - from.x);
+            // Stretches shorter than the start have no slope that could be told.
+            if fall.is_some_and(|(fall, slack)| to.x - from.x > START && (rate - fall).abs() > slack) {
+                return Some(Reached { part: Some(part), catch: at(last), ends: Ends::Crease });
+            }
+            last = to;
+        }
+        let catch = at(last);
+        let ends = if self.on_ground(catch) { Ends::Ground } else { Ends::End };
+        Some(Reached { part: Some(part), catch, ends })
+    }
+
+    /// Whether a point lies on the ground.
+    fn on_ground(&self, p: DVec3) -> bool {
+        let height = self.ground.as_ref().and_then(|ground| ground.at(p.truncate()));
+        height.is_some_and(|(z, _)| (z - p.z).abs() <= self.lie.tolerance)
+    }
+}
+
+/// Ends and triangle of every stretch of a run.
+fn stretches(run: &Run) -> impl Iterator<Item = (DVec2, DVec2, u32)> {
+    run.points.windows(2).zip(&run.triangles).map(|(ends, &t)| (ends[0], ends[1], t))
+}
