@@ -40,7 +40,7 @@ pub struct BuildJob {
     pub stakes: Vec<Target>,
     /// Where drawings go.
     pub plots: Vec<(Target, Drawing)>,
-    /// Stations of the cross-sections to be drawn; none: all of `stations`.
+    /// Stations of the cross-sections to be drawn; none: all of `stations`, in a report some.
     pub sections: Vec<f64>,
     /// Where reports go.
     pub reports: Vec<(Target, ReportFormat)>,
@@ -112,7 +112,7 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
             Content::Lines => write_lines(out, &lines, crs).map(drop),
             Content::Stakes => write_stakes(out, &stakes),
             Content::Plot(drawing) => Ok(out.write_all(plot::file(&scene, drawing, &job.sections).as_bytes())?),
-            Content::Report(format) => format.write(out, report, &scene),
+            Content::Report(format) => format.write(out, report, &scene, &job.sections),
         })
     };
     for index in in_order(&targets, &contents) {

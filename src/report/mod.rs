@@ -60,15 +60,15 @@ impl ReportFormat {
         self == Self::Html
     }
 
-    /// Writes a report in this format; the page draws `scene`.
+    /// Writes a report in this format; the page draws `scene`, with cross-sections at `sections` or, without any, where it sees fit.
     ///
     /// # Errors
     /// As [`write_json`], [`write_text`] and [`html::write_html`].
-    pub fn write(self, out: &mut (impl Write + ?Sized), report: &Report, scene: &Scene<'_>) -> Result<(), EncodeError> {
+    pub fn write(self, out: &mut (impl Write + ?Sized), report: &Report, scene: &Scene<'_>, sections: &[f64]) -> Result<(), EncodeError> {
         match self {
             Self::Json => write_json(out, report),
             Self::Text => write_text(out, report),
-            Self::Html => html::write_html(out, report, scene),
+            Self::Html => html::write_html(out, report, scene, sections),
         }
     }
 

@@ -5,6 +5,7 @@ use super::proof::{certificate, method, passed};
 use super::shell::{Page, Section};
 use super::view::{MOST_TRIANGLES, View, view};
 use super::{drawings, volumes};
+use crate::model::CurveKind;
 use crate::plot::Scene;
 use crate::report::json::all_finite;
 use crate::report::{DepthPlace, ExtentKind, LineFigures, Report, SlopeRange};
@@ -18,17 +19,23 @@ const MOST_BURIED: usize = 1000;
 /// Most warnings' worth of levels written out; of more the first and the last.
 const MOST_LEVELS: usize = 24;
 
-/// Writes the report of `build` as a page: figures, drawings and a 3D view. Times are not in it.
+/// Writes the report of `build` as a page: figures, drawings and a 3D view, with cross-sections at the stations `asked` for, or at
+/// some if there are none. Times are not in it.
 ///
 /// # Errors
 /// [`EncodeError::ReportNotFinite`] as [`crate::report::write_json`]; [`EncodeError::Io`] from the sink.
-pub fn write_html(out: &mut (impl Write + ?Sized), report: &Report, scene: &Scene<'_>) -> Result<(), EncodeError> {
+pub fn write_html(
+    out: &mut (impl Write + ?Sized),
+    report: &Report,
+    scene: &Scene<'_>,
+    asked: &[f64],
+) -> Result<(), EncodeError> {
     all_finite(report)?;
-    out.write_all(render(report, scene).as_bytes())?;
+    out.write_all(render(report, scene, asked).as_bytes())?;
     Ok(())
 }
 
-pub(super) fn render(report: &Report, scene: &Scene<'_>) -> String {
+pub(super) fn render(report: &Report, scene: &Scene<'_>, asked: &[f64]) -> String {
     let deepest = report.depths.as_ref().map_or([0.0; 2], |d| [d.cut_max, d.fill_max]);
     let view = view(scene, deepest, MOST_TRIANGLES);
     let units = Units(&report.units.length);
@@ -38,9 +45,9 @@ pub(super) fn render(report: &Report, scene: &Scene<'_>) -> String {
     add("model", "3D view", view.as_ref().map(|view| model(report, scene, view)));
     add("volumes", "Volumes", report.volumes.as_ref().map(|v| volumes::volumes(report, v, units)));
     add("stations", "Volumes by station", report.stations.as_ref().map(|rows| volumes::stations(report, rows, units)));
-    add("haul", "Mass haul", drawings::mass_haul(scene));
+    add("haul", "Mass haul", report.stations.as_ref().and_then(|_| drawings::mass_haul(scene)));
     add("profile", "Long profile", drawings::profile(scene));
-    add("sections", "Cross-sections", drawings::sections(scene));
+    add("sections", "Cross-sections", drawings::sections(report, scene, asked));
     add("slopes", "Slopes", Some(slopes(report)));
     add("depths", "Depths and areas", depths(report, units));
     add("daylight", "Daylight line", daylight(report, units));
@@ -91,7 +98,7 @@ fn summary(report: &Report, units: Units<'_>) -> Markup {
             }
             @if sound { li.good { "Certificate passed" } } @else { li.bad { "Certificate NOT passed" } }
             @if !report.warnings.is_empty() {
-                li.warn { a href="#warnings" { (report.warnings.len()) @if report.warnings.len() == 1 { " warning" } @else { " warnings" } } }
+                li.warn { a href="#warnings" { (report.warnings.len()) @if report.warnings.len() == 1 { " warning or note" } @else { " warnings and notes" } } }
             }
         }
         (tiles(report, units))
@@ -148,7 +155,7 @@ fn model(report: &Report, scene: &Scene<'_>, view: &View) -> Markup {
                         label { input type="checkbox" data-part="show-works" checked; "Works" }
                         @if on_ground {
                             label { input type="checkbox" data-part="show-ground" checked; "Ground around" }
-                            label { input type="checkbox" data-part="show-before"; "Ground before, over the works" }
+                            label { input type="checkbox" data-part="show-before"; "Ground before" }
                         }
                         label { input type="checkbox" data-part="show-lines" checked; "Lines" }
                     }
@@ -156,6 +163,7 @@ fn model(report: &Report, scene: &Scene<'_>, view: &View) -> Markup {
                 div.stage {
                     canvas tabindex="0" data-part="canvas" role="application" aria-describedby="view-keys"
                         aria-label="3D view of the works; turn it with the arrow keys" {}
+                    canvas.still data-part="still" aria-hidden="true" {}
                     svg.needle data-part="needle" viewBox="0 0 40 40" aria-hidden="true" {
                         path d="M20 3 L27 25 L20 21 L13 25 Z" fill="currentColor" {}
                         text x="20" y="38" text-anchor="middle" font-size="13" font-weight="700" fill="currentColor" { "N" }
@@ -175,7 +183,7 @@ fn model(report: &Report, scene: &Scene<'_>, view: &View) -> Markup {
                         span { i.platform {} "platform" }
                         @if report.slopes.cut.is_some() { span { i.rise {} "rising slope" } }
                         @if report.slopes.fill.is_some() { span { i.fall {} "falling slope" } }
-                        span { i.day {} "boundary" }
+                        @if scene.lines.iter().any(|line| line.kind == CurveKind::Boundary) { span { i.day {} "boundary" } }
                     }
                     span { i.hinge {} "hinge" }
                 }

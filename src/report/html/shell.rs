@@ -1,6 +1,7 @@
 //! The page around the sections: head, table of contents, foot.
 
 use super::view::View;
+use crate::plot;
 use crate::report::text::printable;
 use crate::report::{Tool, Warning};
 use base64::Engine as _;
@@ -63,7 +64,7 @@ impl Page<'_> {
                     meta name="generator" content={ (self.tool.name) " " (self.tool.version) };
                     title { (title) " · " (self.kind) }
                     link rel="icon" href="data:,";
-                    style { (PreEscaped(STYLE)) (PreEscaped(super::drawings::css())) }
+                    style { (PreEscaped(STYLE)) (PreEscaped(plot::css())) }
                 }
                 body {
                     header {
@@ -73,7 +74,7 @@ impl Page<'_> {
                     }
                     nav aria-label="Contents" {
                         ol {
-                            @if !self.warnings.is_empty() { li { a href="#warnings" { "Warnings" } } }
+                            @if !self.warnings.is_empty() { li { a href="#warnings" { "Warnings and notes" } } }
                             @for section in &self.sections { li { a href={ "#" (section.id) } { (section.title) } } }
                         }
                     }
@@ -112,12 +113,12 @@ impl Page<'_> {
 fn warnings(warnings: &[Warning]) -> Markup {
     html! {
         section.warnings id="warnings" aria-labelledby="warnings-title" {
-            h2 id="warnings-title" { "Warnings" }
+            h2 id="warnings-title" { "Warnings and notes" }
             ul {
                 @for warning in warnings {
                     li {
                         pre { @for (i, line) in warning.message.lines().enumerate() { @if i > 0 { "\n" } (printable(line)) } }
-                        span.soft.small { "code " code { (printable(&warning.code)) } }
+                        code.soft.small { (printable(&warning.code)) }
                     }
                 }
             }

@@ -35,7 +35,7 @@
   const size = Math.max(Math.hypot(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]), 1e-3);
 
   const FIELD = 30 * Math.PI / 180;
-  const HOME = { azimuth: -0.5, pitch: 0.62 };
+  const HOME = { azimuth: -0.45, pitch: 0.7 };
   const ABOVE = { azimuth: 0, pitch: Math.PI / 2 };
   const FRONT = { azimuth: 0, pitch: 0.12 };
   const camera = { azimuth: 0, pitch: 0, distance: 1, target: [0, 0, 0], height: 1 };
@@ -52,8 +52,10 @@
   const eye = (ahead) => camera.target.map((t, i) => t - ahead[i] * camera.distance);
   const aspect = () => Math.max(canvas.clientWidth, 1) / Math.max(canvas.clientHeight, 1);
 
-  // All of the works in the picture, from the direction given.
+  // All of the works in the picture, from the direction given; kept there when the window changes, until the camera is moved.
+  let kept = null;
   const look = (view) => {
+    kept = view;
     Object.assign(camera, view);
     const { right, up, ahead } = basis();
     camera.target = [0, 1, 2].map((i) => 0.5 * (lo[i] + hi[i]) * (i === 2 ? camera.height : 1));
@@ -102,7 +104,9 @@
       }
       vec3 normal = normalize(cross(dFdx(world), dFdy(world)));
       if (normal.z < 0.0) normal = -normal;
-      float light = 0.52 + 0.48 * max(dot(normal, normalize(vec3(-0.5, 0.45, 0.75))), 0.0);
+      // The ground shows its relief; the works, whose colour means something, less of it.
+      float lit = max(dot(normal, normalize(vec3(-0.5, 0.45, 0.75))), 0.0);
+      float light = mode == 0 ? 0.5 + 0.5 * lit : 0.76 + 0.24 * lit;
       vec3 base = plain;
       if (mode == 1) {
         vec3 deep = depth < 0.0 ? cut : fill;
@@ -131,13 +135,14 @@
       gl_Position = end;
     }`, `#version 300 es
     precision highp float;
-    uniform vec3 plain;
+    uniform vec4 plain;
     out vec4 colour;
-    void main() { colour = vec4(plain, 1.0); }`];
+    void main() { colour = vec4(plain.rgb, 1.0) * plain.a; }`];
   const MASK_SIZE = 2048;
   const STYLE = {
     hinge: ["--view-line", 2.4], daylight: ["--view-daylight", 2.2], zero: ["--view-line", 1.4], boundary: ["--view-daylight", 1.6],
-    breakline: ["--view-line", 1.0], ridge: ["--view-crease", 1.0], valley: ["--view-crease", 1.0], level_curve: ["--view-level", 0.9],
+    breakline: ["--view-line", 1.0, 0.7], ridge: ["--view-crease", 1.0, 0.7], valley: ["--view-crease", 1.0, 0.7],
+    level_curve: ["--view-level", 0.8, 0.5],
   };
 
   let gl = null, program = {}, plan = null, wanted = false;
@@ -276,16 +281,19 @@
       const p = program.line;
       gl.useProgram(p.made);
       gl.depthMask(false);
+      gl.enable(gl.BLEND);
+      gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
       gl.uniformMatrix4fv(p.uniform("view"), false, view);
       gl.uniform2f(p.uniform("pixels"), w, h);
       for (const l of lines) {
-        const [name, width] = STYLE[l.kind] || ["--view-line", 1];
-        gl.uniform3fv(p.uniform("plain"), colour(name));
+        const [name, width, alpha = 1] = STYLE[l.kind] || ["--view-line", 1];
+        gl.uniform4f(p.uniform("plain"), ...colour(name), alpha);
         gl.uniform1f(p.uniform("width"), width * ratio);
         gl.bindVertexArray(l.array);
         gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, l.ends.length / 6);
       }
       gl.bindVertexArray(null);
+      gl.disable(gl.BLEND);
       gl.depthMask(true);
     }
     if (show.works && show.before) {
@@ -306,17 +314,20 @@
 
   // Moving the camera. `dx` and `dy` are pixels.
   const turn = (dx, dy) => {
+    kept = null;
     camera.azimuth += dx * 0.008;
     camera.pitch = Math.min(Math.PI / 2, Math.max(-0.2, camera.pitch + dy * 0.008));
     redraw();
   };
   const pan = (dx, dy) => {
+    kept = null;
     const { right, up } = basis();
     const scale = 2 * camera.distance * Math.tan(FIELD / 2) / Math.max(canvas.clientHeight, 1);
     camera.target = camera.target.map((t, i) => t + (up[i] * dy - right[i] * dx) * scale);
     redraw();
   };
   const zoom = (factor) => {
+    kept = null;
     camera.distance = Math.min(size * 20, Math.max(size * 1e-3, camera.distance * factor));
     redraw();
   };
@@ -427,7 +438,8 @@
     const before = camera.height;
     camera.height = Number(e.target.value) || 1;
     camera.target[2] *= camera.height / before;
-    redraw();
+    if (kept) look(kept);
+    else redraw();
   });
   for (const name of Object.keys(show)) {
     const input = part(`show-${name}`);
@@ -460,14 +472,18 @@
   });
   canvas.addEventListener("webglcontextrestored", start);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
-  // Paper is white, whatever the screen is.
-  const printing = (on) => () => {
+  // Paper is white, whatever the screen is. Browsers print the last picture shown, so the one for paper goes into a plain canvas.
+  const still = part("still");
+  const printing = (on) => {
     document.documentElement.classList.toggle("printing", on);
     paint();
+    [still.width, still.height] = [canvas.width, canvas.height];
+    if (on) still.getContext("2d").drawImage(canvas, 0, 0);
   };
-  window.addEventListener("beforeprint", printing(true));
-  window.addEventListener("afterprint", printing(false));
-  new ResizeObserver(redraw).observe(canvas);
+  window.addEventListener("beforeprint", () => printing(true));
+  window.addEventListener("afterprint", () => printing(false));
+  matchMedia("print").addEventListener("change", (e) => printing(e.matches));
+  new ResizeObserver(() => (kept ? look(kept) : redraw())).observe(canvas);
   start();
   look(HOME);
 })();
