@@ -4,11 +4,14 @@
 //! drawing is bounded, whatever is drawn. The same input gives the same bytes.
 
 mod bands;
+mod between;
+mod chart;
 mod contours;
 mod course;
 mod drawing;
 mod haul;
 mod labels;
+mod legend;
 mod lines;
 mod plan;
 mod profile;

@@ -7,11 +7,11 @@ mod map;
 
 use super::course::courses;
 use super::labels::{Labels, fitted};
+use super::legend::{Block, Sample, flow};
 use super::scale::{figure, round_step};
 use super::svg::Svg;
 use super::{Scene, Style, contours, lines};
 use crate::write::GENERATOR;
-use furniture::{Block, Sample};
 use glam::DVec2;
 use map::Map;
 
@@ -47,7 +47,7 @@ pub fn plan(scene: &Scene<'_>, style: &Style) -> Option<String> {
 
     let mut blocks = Vec::new();
     blocks.extend(depths.as_ref().map(depths::Depths::block));
-    blocks.push(Block::bar(&map, scene.unit));
+    blocks.push(Block::bar(map.size.x, map.scale, scene.unit));
     blocks.extend(parts(scene, depths.is_some()));
     blocks.extend(lines.blocks(scene, &courses));
     blocks.extend(ground.as_ref().map(|(interval, _)| {
@@ -55,7 +55,7 @@ pub fn plan(scene: &Scene<'_>, style: &Style) -> Option<String> {
         Block::symbol(Sample::Line("ln contour i"), &text)
     }));
     let top = HEAD + map.size.y + BELOW;
-    let rows = furniture::flow(&blocks, width - LEFT - RIGHT);
+    let rows = flow(&blocks, width - LEFT - RIGHT);
     let height = top + rows.iter().map(|row| row.height).sum::<f64>() + 16.0;
 
     let title = format!("Plan: {}", scene.title);

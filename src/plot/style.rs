@@ -103,6 +103,9 @@ const SHAPES: &str = "\
 .plot .ground{stroke-width:1.6}
 .plot .design{stroke-width:2.4}
 .plot .thin{stroke-width:1}
+.plot .lead{fill:none;stroke-width:.6}
+.plot .dot{stroke-width:1.6}
+.plot .gap{stroke-width:1}
 ";
 
 /// What does; `$name` stands for a colour of the palette.
@@ -137,6 +140,9 @@ const COLOURS: &str = "\
 .plot text.cut{fill:$cut}
 .plot text.fill{fill:$fill}
 .plot .thin{stroke:$ink}
+.plot .lead{stroke:$ink}
+.plot .dot{fill:$paper;stroke:$ink}
+.plot .gap{stroke:$paper}
 ";
 
 /// Rules for the classes of depth.

@@ -39,20 +39,10 @@ impl Svg {
         svg
     }
 
-    /// Opens a group.
-    pub(super) fn group(&mut self, class: &str) {
-        let _ = writeln!(self.text, "<g class=\"{class}\">");
-    }
-
     /// Opens a window: what is drawn in it is cut off at its edge, and has its origin in the upper left corner.
     pub(super) fn window(&mut self, at: DVec2, size: DVec2) {
         let [x, y, w, h] = [at.x, at.y, size.x, size.y].map(number);
         let _ = writeln!(self.text, "<svg x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\">");
-    }
-
-    /// Closes a group.
-    pub(super) fn end_group(&mut self) {
-        self.text.push_str("</g>\n");
     }
 
     /// Closes a window.

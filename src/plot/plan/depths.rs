@@ -1,11 +1,11 @@
 //! Depths of cut and fill in bands; without ground the parts of the design.
 
-use super::furniture::Block;
 use super::map::Map;
 use crate::ground::{Deepest, Piece};
 use crate::model::Part;
 use crate::plot::bands::{Bands, Point};
 use crate::plot::labels::Labels;
+use crate::plot::legend::Block;
 use crate::plot::lines::{Stroke, simplified};
 use crate::plot::scale::{decimals, figure, round_step, signed};
 use crate::plot::style::{CLASSES, SMALL};

@@ -1,13 +1,15 @@
 //! Lines on the map: line work of the design, axes and their stations.
 
-use super::furniture::{Block, Sample};
 use super::is_index;
 use super::map::Map;
 use crate::ground::place;
-use crate::model::{CurveKind, LineFeature};
+use crate::kernel::sum::Sum;
+use crate::mesh::drape::Drape;
+use crate::model::{CurveKind, LineFeature, Part};
 use crate::plot::Scene;
 use crate::plot::course::Course;
 use crate::plot::labels::{Labels, width};
+use crate::plot::legend::{Block, Sample};
 use crate::plot::lines::{Stroke, simplified};
 use crate::plot::scale::{decimals, figure, round_step};
 use crate::plot::style::SMALL;
@@ -33,9 +35,13 @@ const KINDS: [(CurveKind, &str, &str); 8] = [
 #[derive(Debug)]
 pub(super) struct LineWork<'a> {
     features: Vec<(&'a LineFeature, Stroke)>,
+    /// Interval of the level curves that are drawn; `None` where they stand at chosen heights.
     interval: Option<f64>,
     on_ground: bool,
 }
+
+/// Level curves are at least about this far apart, in px, or only every second, fifth, … is drawn.
+const CURVES_APART: f64 = 4.0;
 
 impl<'a> LineWork<'a> {
     /// Puts the line work on the map.
@@ -44,7 +50,10 @@ impl<'a> LineWork<'a> {
         // Centre lines of roads are drawn as axes.
         let is_axis =
             |f: &LineFeature| f.kind == CurveKind::Breakline && f.chain.as_deref().is_some_and(|name| centres.contains(&name));
-        let features: Vec<&LineFeature> = scene.lines.iter().filter(|f| f.points.len() > 1 && !is_axis(f)).collect();
+        let interval = interval(scene.lines).map(|interval| shown(interval, steepness(scene), map.scale));
+        let is_shown = |f: &LineFeature| f.elevation.zip(interval).is_none_or(|(z, interval)| is_multiple(z, interval));
+        let features: Vec<&LineFeature> =
+            scene.lines.iter().filter(|f| f.points.len() > 1 && !is_axis(f) && is_shown(f)).collect();
         let strokes: Vec<Stroke> = features
             .iter()
             .map(|f| {
@@ -55,7 +64,7 @@ impl<'a> LineWork<'a> {
             .collect();
         let kept = simplified(&strokes, LINE_POINTS);
         let drawn = features.into_iter().zip(kept).filter_map(|(f, stroke)| Some((f, stroke?))).collect();
-        Self { features: drawn, interval: interval(scene.lines), on_ground: scene.ground.is_some() }
+        Self { features: drawn, interval, on_ground: scene.ground.is_some() }
     }
 
     /// Interval of the level curves.
@@ -119,15 +128,41 @@ impl<'a> LineWork<'a> {
     }
 }
 
-/// The least distance between levels.
+/// Whether a number is a multiple of a step, up to rounding.
+fn is_multiple(value: f64, step: f64) -> bool {
+    let share = value / step;
+    (share - share.round()).abs() < 1e-6
+}
+
+/// The least distance between levels; `None` where not all are multiples of it.
 fn interval(features: &[LineFeature]) -> Option<f64> {
     let mut levels: Vec<f64> = features.iter().filter_map(|f| f.elevation).collect();
     levels.sort_by(f64::total_cmp);
     levels.dedup();
     let least = levels.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
     // Levels are multiples of a decimal fraction: what rounding did to their difference is taken off.
-    let short = format!("{least:.6}").parse().ok();
-    short.filter(|d: &f64| *d > 0.0 && d.is_finite())
+    let short: f64 = format!("{least:.6}").parse().ok()?;
+    let fits = short > 0.0 && short.is_finite() && levels.iter().all(|level| is_multiple(*level, short));
+    fits.then_some(short)
+}
+
+/// Steepest gradient of the slopes: the mean over their triangles, by plan area.
+fn steepness(scene: &Scene<'_>) -> f64 {
+    let design = scene.design;
+    let (mut rise, mut area) = (Sum::default(), Sum::default());
+    for t in (0..design.triangles.len()).filter(|t| matches!(design.parts[*t], Part::FillSlope | Part::CutSlope)) {
+        let [a, b, c] = design.corners(t);
+        let normal = (b - a).cross(c - a);
+        rise.add(normal.truncate().length());
+        area.add(normal.z.abs());
+    }
+    if area.value() > 0.0 { rise.value() / area.value() } else { 1.0 }
+}
+
+/// The interval at which curves on a slope are apart enough, a multiple of the given one.
+fn shown(interval: f64, steepness: f64, scale: f64) -> f64 {
+    let least = CURVES_APART * steepness / scale;
+    if interval >= least { interval } else { interval * round_step(least / interval).ceil() }
 }
 
 /// Axes of roads.
@@ -158,15 +193,14 @@ pub(super) fn stations(svg: &mut Svg, map: &Map, scene: &Scene<'_>, courses: &[C
     // Where intervals are too short to be seen, multiples of them.
     let every = |apart: f64| spacing * round_step(apart / map.scale / spacing).max(1.0).ceil();
     let (ticks, figures) = (every(5.0), every(APART));
-    let is = |station: f64, step: f64| {
-        let share = station / step;
-        (share - share.round()).abs() < 1e-6
-    };
+    let design = Drape::new(&scene.design.vertices, &scene.design.triangles, None);
     let mut path = Path::default();
     let mut count = 0;
     for (i, course) in courses.iter().enumerate() {
         let axis = &course.axis;
-        for &station in ground.stations.breaks(i).iter().filter(|station| is(**station, ticks) || **station == axis.length) {
+        for &station in
+            ground.stations.breaks(i).iter().filter(|station| is_multiple(**station, ticks) || **station == axis.length)
+        {
             // A ring ends where it begins.
             if axis.closed && station == axis.length || count == MOST_TICKS {
                 continue;
@@ -177,21 +211,43 @@ pub(super) fn stations(svg: &mut Svg, map: &Map, scene: &Scene<'_>, courses: &[C
             let left = DVec2::new(-along.y, -along.x);
             path.add(&[at - left * TICK, at + left * TICK], false);
             count += 1;
-            let text = figure(station, decimals(spacing));
-            let turn = upright(left.to_angle().to_degrees());
-            let off = TICK + 4.0 + 0.5 * width(&text, SMALL);
-            if (is(station, figures) || station == axis.length) && map.shows(at, 12.0) {
-                for side in [1.0, -1.0] {
-                    let centre = at + left * (off * side);
-                    if labels.take(centre, turn, &text, SMALL) {
-                        centred(svg, "s m halo", centre, turn, &text);
-                        break;
-                    }
-                }
+            if !(is_multiple(station, figures) || station == axis.length) || !map.shows(at, 12.0) {
+                continue;
             }
+            let digits = if is_multiple(station, spacing) { decimals(spacing) } else { 2 };
+            label_station(svg, map, &design, (at, left), &figure(station, digits), labels);
         }
     }
     svg.path("ln thin", &path);
+}
+
+/// Labels of stations stand beside the works, this far from the axis at most, in px.
+const FARTHEST: f64 = 150.0;
+
+/// Writes a station at the first place beside the works, on the left if there is room, with a thin line to its tick.
+fn label_station(svg: &mut Svg, map: &Map, design: &Drape<'_>, (at, left): (DVec2, DVec2), text: &str, labels: &mut Labels) {
+    let turn = upright(left.to_angle().to_degrees());
+    let half = 0.5 * width(text, SMALL);
+    let beside = |p: DVec2| design.at(map.to_local(p)).is_none();
+    for away in [left, -left] {
+        let mut off = TICK + 5.0;
+        while off < FARTHEST && !(beside(at + away * off) && beside(at + away * (off + 2.0 * half))) {
+            off += 4.0;
+        }
+        let centre = at + away * (off + 4.0 + half);
+        if off < FARTHEST && map.shows(centre, half) && labels.take(centre, turn, text, SMALL) {
+            svg.line("lead", at + away * TICK, at + away * (off + 2.0));
+            centred(svg, "s b m halo", centre, turn, text);
+            return;
+        }
+    }
+    for away in [left, -left] {
+        let centre = at + away * (TICK + 4.0 + half);
+        if labels.take(centre, turn, text, SMALL) {
+            centred(svg, "s b m halo", centre, turn, text);
+            return;
+        }
+    }
 }
 
 /// An angle in degrees at which text can be read without turning the head more than a quarter.

@@ -56,6 +56,11 @@ impl Map {
         self.at(self.frame.to_local(p).truncate())
     }
 
+    /// The place in the local frame that is drawn at a point.
+    pub(super) fn to_local(self, p: DVec2) -> DVec2 {
+        self.corner + DVec2::new(p.x, -p.y) / self.scale
+    }
+
     /// A line of the local frame on the map.
     pub(super) fn stroke(&self, mut stroke: Stroke) -> Stroke {
         stroke.points.iter_mut().for_each(|p| *p = self.at(*p));
