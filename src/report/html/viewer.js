@@ -50,7 +50,11 @@
   const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
   const less = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
   const eye = (ahead) => camera.target.map((t, i) => t - ahead[i] * camera.distance);
-  const aspect = () => Math.max(canvas.clientWidth, 1) / Math.max(canvas.clientHeight, 1);
+  // Size of the picture in px of the page; on paper one of its own.
+  const PAPER = [1200, 680];
+  let paper = false;
+  const extent = () => (paper ? PAPER : [Math.max(canvas.clientWidth, 1), Math.max(canvas.clientHeight, 1)]);
+  const aspect = () => extent()[0] / extent()[1];
 
   // All of the works in the picture, from the direction given; kept there when the window changes, until the camera is moved.
   let kept = null;
@@ -256,8 +260,8 @@
   const paint = () => {
     wanted = false;
     if (!gl || gl.isContextLost()) return;
-    const ratio = Math.min(window.devicePixelRatio || 1, 2);
-    const [w, h] = [canvas.clientWidth, canvas.clientHeight].map((v) => Math.max(1, Math.round(v * ratio)));
+    const ratio = paper ? 2 : Math.min(window.devicePixelRatio || 1, 2);
+    const [w, h] = extent().map((v) => Math.round(v * ratio));
     if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
     gl.viewport(0, 0, w, h);
     gl.clearColor(...colour("--view-sky"), 1);
@@ -322,7 +326,7 @@
   const pan = (dx, dy) => {
     kept = null;
     const { right, up } = basis();
-    const scale = 2 * camera.distance * Math.tan(FIELD / 2) / Math.max(canvas.clientHeight, 1);
+    const scale = 2 * camera.distance * Math.tan(FIELD / 2) / extent()[1];
     camera.target = camera.target.map((t, i) => t + (up[i] * dy - right[i] * dx) * scale);
     redraw();
   };
@@ -475,15 +479,21 @@
   // Paper is white, whatever the screen is. Browsers print the last picture shown, so the one for paper goes into a plain canvas.
   const still = part("still");
   const printing = (on) => {
+    paper = on;
     document.documentElement.classList.toggle("printing", on);
     paint();
+    if (!on) return;
     [still.width, still.height] = [canvas.width, canvas.height];
-    if (on) still.getContext("2d").drawImage(canvas, 0, 0);
+    still.getContext("2d").drawImage(canvas, 0, 0);
   };
   window.addEventListener("beforeprint", () => printing(true));
   window.addEventListener("afterprint", () => printing(false));
   matchMedia("print").addEventListener("change", (e) => printing(e.matches));
-  new ResizeObserver(() => (kept ? look(kept) : redraw())).observe(canvas);
+  new ResizeObserver(() => {
+    if (!canvas.clientWidth) return;
+    if (kept) look(kept);
+    else redraw();
+  }).observe(canvas);
   start();
   look(HOME);
 })();
