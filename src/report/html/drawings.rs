@@ -15,11 +15,14 @@ const MOST_SECTIONS: usize = 10;
 /// Most cross-sections of a line, even if more are asked for: each is some kilobytes.
 const MOST_ASKED: usize = 100;
 
+/// Width of a cross-section in px: two stand side by side.
+const SECTION_WIDTH: f64 = 500.0;
+
 /// A drawing in its frame. What does not fit is moved in the frame, not with the page.
 fn figure(label: &str, svg: String) -> Markup {
     html! {
-        figure.drawing {
-            div.scroll tabindex="0" role="region" aria-label=(label) { (PreEscaped(svg)) }
+        figure {
+            div.scroll.drawing tabindex="0" role="region" aria-label=(label) { (PreEscaped(svg)) }
         }
     }
 }
@@ -29,7 +32,7 @@ pub(super) fn plan(scene: &Scene<'_>) -> Option<Markup> {
 }
 
 /// What `draw` makes of the axes, with a note on those left out.
-fn along(scene: &Scene<'_>, draw: impl Fn(usize, &str, f64) -> Vec<Markup>) -> Option<Markup> {
+fn along(scene: &Scene<'_>, class: &str, draw: impl Fn(usize, &str, f64) -> Vec<Markup>) -> Option<Markup> {
     let axes = ground::axes(scene.line, &scene.design.frame);
     let many = axes.len() > 1;
     let drawn: Vec<Markup> = axes
@@ -40,7 +43,7 @@ fn along(scene: &Scene<'_>, draw: impl Fn(usize, &str, f64) -> Vec<Markup>) -> O
             let name = printable(&axis.name);
             let figures = draw(i, &name, axis.length);
             let title = html! { @if many { h3 { (name) } } };
-            (!figures.is_empty()).then(|| html! { (title) div.sheets { @for figure in figures { (figure) } } })
+            (!figures.is_empty()).then(|| html! { (title) div.(class) { @for figure in figures { (figure) } } })
         })
         .collect();
     let rest = axes.len().saturating_sub(MOST_AXES);
@@ -53,11 +56,11 @@ fn along(scene: &Scene<'_>, draw: impl Fn(usize, &str, f64) -> Vec<Markup>) -> O
 }
 
 pub(super) fn profile(scene: &Scene<'_>) -> Option<Markup> {
-    along(scene, |i, name, _| plot::profile(scene, i, &Style::INLINE).map(|svg| figure(&format!("Long profile of {name}"), svg)).into_iter().collect())
+    along(scene, "sheets", |i, name, _| plot::profile(scene, i, &Style::INLINE).map(|svg| figure(&format!("Long profile of {name}"), svg)).into_iter().collect())
 }
 
 pub(super) fn mass_haul(scene: &Scene<'_>) -> Option<Markup> {
-    along(scene, |i, name, _| plot::mass_haul(scene, i, &Style::INLINE).map(|svg| figure(&format!("Mass haul of {name}"), svg)).into_iter().collect())
+    along(scene, "sheets", |i, name, _| plot::mass_haul(scene, i, &Style::INLINE).map(|svg| figure(&format!("Mass haul of {name}"), svg)).into_iter().collect())
 }
 
 /// Cross-sections where they were asked for, or at some of the stations and where cut and fill are deepest.
@@ -67,7 +70,7 @@ pub(super) fn sections(report: &Report, scene: &Scene<'_>, asked: &[f64]) -> Opt
         let own = |place: &&DepthPlace| place.chain.as_deref().is_some_and(|chain| printable(chain) == name);
         places.filter(own).filter_map(|place| place.station).filter(|s| (0.0..=length).contains(s)).collect()
     };
-    along(scene, |i, name, length| {
+    along(scene, "sheets pair", |i, name, length| {
         let breaks = scene.ground.map_or(&[][..], |ground| ground.stations.breaks(i));
         let mut stations: Vec<f64> = if asked.is_empty() {
             let mut chosen = chosen(breaks, length);
@@ -80,7 +83,7 @@ pub(super) fn sections(report: &Report, scene: &Scene<'_>, asked: &[f64]) -> Opt
         };
         let count = stations.len();
         stations.truncate(MOST_ASKED);
-        let drawn = plot::sections(scene, i, &stations, &Style::INLINE);
+        let drawn = plot::sections(scene, i, &stations, &Style { width: SECTION_WIDTH, ..Style::INLINE });
         let mut figures: Vec<Markup> =
             drawn.into_iter().map(|(station, svg)| figure(&format!("Cross-section of {name} at station {station:.2}"), svg)).collect();
         if count > MOST_ASKED {

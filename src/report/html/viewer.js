@@ -24,13 +24,18 @@
   }
   const lines = scene.lines.map((l) => ({ kind: l.kind, ends: floats(l.ends) }));
 
-  // The box of the works, for the first view and for the mask.
+  // The box of the works, for the mask, and some of its points, for the first view.
+  const outline = [];
   const lo = [Infinity, Infinity, Infinity], hi = [-Infinity, -Infinity, -Infinity];
   for (const m of [meshes.works, meshes.bare]) {
     for (let i = 0; m && i < m.position.length; i++) {
       lo[i % 3] = Math.min(lo[i % 3], m.position[i]);
       hi[i % 3] = Math.max(hi[i % 3], m.position[i]);
     }
+  }
+  for (const m of [meshes.works, meshes.bare]) {
+    const step = m ? Math.ceil(m.position.length / 3 / 4000) : 1;
+    for (let i = 0; m && i < m.position.length / 3; i += step) outline.push(m.position.slice(3 * i, 3 * i + 3));
   }
   const size = Math.max(Math.hypot(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]), 1e-3);
 
@@ -65,12 +70,12 @@
     camera.target = [0, 1, 2].map((i) => 0.5 * (lo[i] + hi[i]) * (i === 2 ? camera.height : 1));
     const tan = Math.tan(FIELD / 2);
     let distance = 0;
-    for (let k = 0; k < 8; k++) {
-      const corner = less([k & 1 ? hi[0] : lo[0], k & 2 ? hi[1] : lo[1], (k & 4 ? hi[2] : lo[2]) * camera.height], camera.target);
+    for (const [x, y, z] of outline) {
+      const corner = less([x, y, z * camera.height], camera.target);
       const near = -dot(corner, ahead);
       distance = Math.max(distance, near + Math.abs(dot(corner, right)) / (tan * aspect()), near + Math.abs(dot(corner, up)) / tan);
     }
-    camera.distance = Math.max(distance * 1.08, size * 0.01);
+    camera.distance = Math.max(distance * 1.12, size * 0.01);
     redraw();
   };
 
