@@ -14,7 +14,7 @@ use crate::write::GENERATOR;
 use glam::DVec2;
 
 /// Room on the left for elevations and the names of the rows.
-const LEFT: f64 = 84.0;
+const LEFT: f64 = 116.0;
 const RIGHT: f64 = 26.0;
 const HEAD: f64 = 60.0;
 
@@ -25,7 +25,7 @@ const HEIGHT: (f64, f64) = (250.0, 420.0);
 const ROW: f64 = 19.0;
 
 /// Columns of figures are at least this far apart, in px.
-const COLUMN: f64 = 62.0;
+const COLUMN: f64 = 48.0;
 
 /// Gradients that differ by less are one, as a share of 1.
 const SAME_GRADIENT: f64 = 2e-5;
@@ -164,7 +164,7 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     }
     svg.path("grid", &rules);
     let mut name = |i: f64, text: &str| svg.text("s soft", DVec2::new(12.0, row(i) + 13.0), 0.0, text);
-    name(0.0, "gradient");
+    name(0.0, "gradient in %");
     name(1.0, "line");
     if on_ground {
         name(2.0, "ground");
@@ -234,11 +234,11 @@ fn draw_gradients(svg: &mut Svg, chart: &Chart, ends: &[DVec2], y: f64, unit: &s
         if b.x <= a.x {
             continue;
         }
-        let grade = signed(100.0 * (b.y - a.y) / (b.x - a.x), 2);
-        let long = format!("{grade} % · {} {unit}", figure(b.x - a.x, 1));
-        let short = format!("{grade} %");
-        for text in [long, short] {
-            if width(&text, SMALL) + 8.0 < to - from {
+        let percent = 100.0 * (b.y - a.y) / (b.x - a.x);
+        let grade = |digits: usize| signed(percent, digits);
+        let long = format!("{} · {} {unit}", grade(2), figure(b.x - a.x, 1));
+        for text in [long, grade(2), grade(1)] {
+            if width(&text, SMALL) + 4.0 < to - from {
                 svg.text("s m", DVec2::new(0.5 * (from + to), y + 13.0), 0.0, &text);
                 break;
             }
