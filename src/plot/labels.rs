@@ -11,7 +11,8 @@ const WIDE: f64 = 1.05;
 
 /// About how wide a text is, in px.
 pub(super) fn width(text: &str, size: f64) -> f64 {
-    text.chars().map(|c| if c as u32 >= 0x1100 { WIDE } else { LETTER }).sum::<f64>() * size
+    let is_wide = |c: char| matches!(c, '\u{1100}'..='\u{115f}' | '\u{2e80}'..);
+    text.chars().map(|c| if is_wide(c) { WIDE } else { LETTER }).sum::<f64>() * size
 }
 
 /// A text that fits into a width, the end cut off where it must be.

@@ -60,7 +60,7 @@ pub fn plan(scene: &Scene<'_>, style: &Style) -> Option<String> {
     let rows = flow(&blocks, width - LEFT - RIGHT);
     let height = top + rows.iter().map(|row| row.height).sum::<f64>() + 16.0;
 
-    let title = format!("Plan: {}", scene.title);
+    let title = format!("Plan: {}", scene.name());
     let mut svg = Svg::new(style, DVec2::new(width, height.ceil()), &title, &description(scene, &map, depths.as_ref()));
     heading(&mut svg, scene, &title, width);
     furniture::north(&mut svg, DVec2::new(width - RIGHT - 14.0, 8.0));

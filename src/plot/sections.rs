@@ -120,7 +120,8 @@ fn shifted(run: Run, from: f64) -> Run {
 }
 
 /// At the ends of an open axis sections stand this far inside, in the length unit: just there the slopes about the end begin.
-const INSIDE: f64 = 1e-6;
+/// More than what [`place`] takes for a vertex.
+const INSIDE: f64 = 2e-6;
 
 /// Sections with what they show and count, in windows that are `width` px wide; and the scale, in px per unit, one for all.
 pub(super) fn views(scene: &Scene<'_>, course: &Course, axis: usize, stations: &[f64], width: f64) -> (f64, Vec<(f64, View)>) {

@@ -192,6 +192,9 @@ const TICK: f64 = 5.0;
 /// Stations with a figure are at least this far apart, in px.
 const APART: f64 = 46.0;
 
+/// The figure of a station this near the end of an axis gives way to that of the end, in px.
+const CROWDED: f64 = 18.0;
+
 /// Most ticks of one drawing.
 const MOST_TICKS: usize = 2000;
 
@@ -219,7 +222,8 @@ pub(super) fn stations(svg: &mut Svg, map: &Map, scene: &Scene<'_>, courses: &[C
             let left = DVec2::new(-along.y, -along.x);
             path.add(&[at - left * TICK, at + left * TICK], false);
             count += 1;
-            if !(is_multiple(station, figures) || station == axis.length) || !map.shows(at, 12.0) {
+            let crowded = station < axis.length && (axis.length - station) * map.scale < CROWDED && !axis.closed;
+            if !(is_multiple(station, figures) || station == axis.length) || crowded || !map.shows(at, 12.0) {
                 continue;
             }
             let digits = if is_multiple(station, spacing) { decimals(spacing) } else { 2 };
