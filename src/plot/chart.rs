@@ -42,15 +42,28 @@ impl Chart {
 
     /// Grid lines at the multiples of a step of `y`, with figures on the left.
     pub(super) fn rows(&self, svg: &mut Svg, step: f64) {
+        self.grid_rows(svg, step);
+        self.row_figures(svg, step);
+    }
+
+    /// Grid lines at the multiples of a step of `y`.
+    pub(super) fn grid_rows(&self, svg: &mut Svg, step: f64) {
         let mut path = Path::default();
         for y in multiples(self.low.y, self.high.y, step) {
             let a = self.px(DVec2::new(self.low.x, y));
             path.add(&[a, DVec2::new(self.right(), a.y)], false);
+        }
+        svg.path("grid", &path);
+    }
+
+    /// Figures of the multiples of a step of `y`, on the left.
+    pub(super) fn row_figures(&self, svg: &mut Svg, step: f64) {
+        for y in multiples(self.low.y, self.high.y, step) {
+            let a = self.px(DVec2::new(self.low.x, y));
             if a.y < self.bottom() - 3.0 && a.y > self.at.y + 3.0 {
                 svg.text("s e soft", a + DVec2::new(-6.0, 4.0), 0.0, &figure(y, decimals(step)));
             }
         }
-        svg.path("grid", &path);
     }
 
     /// Grid lines at some values of `x`.

@@ -87,7 +87,13 @@ pub fn file(scene: &Scene<'_>, drawing: Drawing, stations: &[f64]) -> String {
         (_, 0) => None,
         (_, n) => Some(format!("{n} more lines are not drawn.")),
     };
-    svg::sheet(&parts, &format!("{}: {}", drawing.name(), scene.title), note.as_deref())
+    let title = match drawing {
+        Drawing::Sections => format!("Cross-sections: {}", scene.name()),
+        _ => format!("{}: {}", drawing.name(), scene.name()),
+    };
+    // The other drawings have a heading each.
+    let headed = parts.is_empty() || drawing == Drawing::Sections;
+    svg::sheet(&parts, &title, headed, note.as_deref())
 }
 
 #[cfg(test)]

@@ -4,19 +4,18 @@ use super::chart::Chart;
 use super::course::courses;
 use super::labels::{Labels, fitted, width};
 use super::legend::{Block, Sample, flow};
-use super::profile::columns;
-use super::scale::{decimals, figure, round_step, signed};
+use super::profile::{columns, station_text};
+use super::scale::{figure, round_step, signed};
 use super::style::SMALL;
 use super::svg::{Drawn, Svg};
 use super::{Scene, Style};
 use crate::ground;
-use crate::write::GENERATOR;
 use glam::DVec2;
 
 /// Room on the left for volumes.
 const LEFT: f64 = 84.0;
 const RIGHT: f64 = 26.0;
-const HEAD: f64 = 60.0;
+const HEAD: f64 = 72.0;
 
 /// Height of the curve, and of the bars below.
 const CURVE: f64 = 250.0;
@@ -81,7 +80,7 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     let (cut, fill) = (most(|a| a.cut), most(|a| a.fill));
     let tall = (cut + fill).max(f64::MIN_POSITIVE);
     let bars = Chart {
-        at: DVec2::new(LEFT, HEAD + CURVE + 34.0),
+        at: DVec2::new(LEFT, HEAD + CURVE + 44.0),
         size: DVec2::new(size_x, BARS),
         low: DVec2::new(0.0, -fill - 0.1 * tall),
         high: DVec2::new(length, cut + 0.1 * tall),
@@ -94,7 +93,9 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     } else {
         blocks.push(Block::symbol(Sample::Line("ln design"), "running net (cut − fill)"));
     }
-    blocks.push(Block::symbol(Sample::Dot, "balance point: what was cut so far fills what was filled"));
+    if !balanced(main).is_empty() {
+        blocks.push(Block::symbol(Sample::Dot, "balance point: what was cut so far fills what was filled"));
+    }
     blocks.push(Block::symbol(Sample::Patch("c3"), "cut of an interval"));
     blocks.push(Block::symbol(Sample::Patch("f3"), "fill of an interval"));
     let legend = flow(&blocks, size_x);
@@ -113,15 +114,12 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     svg.text("h1", DVec2::new(20.0, 24.0), 0.0, &fitted(&title, 17.0, style.width() - 40.0));
     let pads = &on_ground.tallied.pads;
     let beside = if pads.cut + pads.fill > 0.0 {
-        format!(
-            " · without platforms beside the axes: cut {} {unit}³, fill {} {unit}³",
-            figure(pads.cut, 1),
-            figure(pads.fill, 1)
-        )
+        let [cut, fill] = [pads.cut, pads.fill].map(|volume| figure(volume, 1));
+        format!(" · slopes only; platforms inside rings take part in none of it: cut {cut} {unit}³, fill {fill} {unit}³")
     } else {
         String::new()
     };
-    let text = format!("volumes in {unit}³ · rising: cut, falling: fill · {balance}{beside} · {GENERATOR}");
+    let text = format!("volumes in {unit}³ · {balance}{beside}");
     svg.text("s soft", DVec2::new(20.0, 43.0), 0.0, &fitted(&text, SMALL - 0.5, style.width() - 40.0));
 
     let stations = columns(scene, length, size_x / length);
@@ -144,13 +142,11 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     curve.lines(&mut svg, "ln design", std::slice::from_ref(main), false);
     mark(&mut svg, &curve, main, unit.label());
 
-    let step = stations.get(1).map_or(1.0, |x| x - stations[0]);
-    let station = |x: f64| figure(x, if x == length && (x / step).fract() > 1e-6 { 2 } else { decimals(step) });
-    let figures = || stations.iter().map(|x| (*x, station(*x)));
+    let figures = || stations.iter().map(|x| (*x, station_text(*x, &stations)));
     curve.below(&mut svg, "s m", curve.bottom() + 16.0, figures());
     bars.below(&mut svg, "s m", bars.bottom() + 16.0, figures());
-    svg.text("s soft", DVec2::new(12.0, curve.at.y + 12.0), 0.0, "net");
-    svg.text("s soft", DVec2::new(12.0, bars.at.y + 12.0), 0.0, "per interval");
+    svg.text("s b", curve.at - DVec2::new(0.0, 7.0), 0.0, "running net from the beginning: rising is cut, falling is fill");
+    svg.text("s b", bars.at - DVec2::new(0.0, 7.0), 0.0, "cut and fill of each interval");
     svg.text("s soft", DVec2::new(12.0, bars.bottom() + 16.0), 0.0, "station");
     let mut y = below;
     for row in legend {

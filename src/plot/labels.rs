@@ -11,7 +11,8 @@ const WIDE: f64 = 1.05;
 
 /// About how wide a text is, in px.
 pub(super) fn width(text: &str, size: f64) -> f64 {
-    text.chars().map(|c| if c as u32 >= 0x1100 { WIDE } else { LETTER }).sum::<f64>() * size
+    let is_wide = |c: char| matches!(c, '\u{1100}'..='\u{115f}' | '\u{2e80}'..);
+    text.chars().map(|c| if is_wide(c) { WIDE } else { LETTER }).sum::<f64>() * size
 }
 
 /// A text that fits into a width, the end cut off where it must be.
@@ -72,10 +73,18 @@ impl Labels {
         self.taken.push(Plate { centre: 0.5 * (lo + hi), along: DVec2::X, half: 0.5 * (hi - lo) });
     }
 
+    /// Takes room for a rectangle; false if there is none.
+    pub(super) fn take_box(&mut self, lo: DVec2, hi: DVec2) -> bool {
+        self.take_plate(Plate { centre: 0.5 * (lo + hi), along: DVec2::X, half: 0.5 * (hi - lo) })
+    }
+
     /// Takes room for a text about a point, turned by `turn` degrees clockwise on paper; false if there is none.
     pub(super) fn take(&mut self, centre: DVec2, turn: f64, text: &str, size: f64) -> bool {
         let half = DVec2::new(0.5 * width(text, size) + 2.0, 0.5 * size + 1.0);
-        let plate = Plate { centre, along: DVec2::from_angle(turn.to_radians()), half };
+        self.take_plate(Plate { centre, along: DVec2::from_angle(turn.to_radians()), half })
+    }
+
+    fn take_plate(&mut self, plate: Plate) -> bool {
         let free = self.taken.len() < MOST && !self.taken.iter().any(|other| plate.meets(other));
         if free {
             self.taken.push(plate);

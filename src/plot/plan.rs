@@ -11,6 +11,7 @@ use super::legend::{Block, Sample, flow};
 use super::scale::{figure, round_step};
 use super::svg::Svg;
 use super::{Scene, Style, contours, lines};
+use crate::mesh::drape::Drape;
 use crate::write::GENERATOR;
 use glam::DVec2;
 use map::Map;
@@ -42,6 +43,7 @@ pub fn plan(scene: &Scene<'_>, style: &Style) -> Option<String> {
     let courses = courses(scene);
     let depths = depths::Depths::of(scene);
     let mut labels = Labels::default();
+    let design = Drape::new(&scene.design.vertices, &scene.design.triangles, None);
     let lines = linework::LineWork::new(scene, &map);
     let ground = ground_contours(scene, &map, lines.interval());
 
@@ -58,7 +60,7 @@ pub fn plan(scene: &Scene<'_>, style: &Style) -> Option<String> {
     let rows = flow(&blocks, width - LEFT - RIGHT);
     let height = top + rows.iter().map(|row| row.height).sum::<f64>() + 16.0;
 
-    let title = format!("Plan: {}", scene.title);
+    let title = format!("Plan: {}", scene.name());
     let mut svg = Svg::new(style, DVec2::new(width, height.ceil()), &title, &description(scene, &map, depths.as_ref()));
     heading(&mut svg, scene, &title, width);
     furniture::north(&mut svg, DVec2::new(width - RIGHT - 14.0, 8.0));
@@ -66,7 +68,7 @@ pub fn plan(scene: &Scene<'_>, style: &Style) -> Option<String> {
     svg.window(DVec2::new(LEFT, HEAD), map.size);
     svg.rect("land", DVec2::ZERO, map.size);
     if let Some((interval, contours)) = &ground {
-        draw_contours(&mut svg, &map, *interval, contours);
+        draw_contours(&mut svg, *interval, contours);
     }
     match &depths {
         Some(depths) => depths.draw(&mut svg, &map, scene, BAND_POINTS),
@@ -75,13 +77,13 @@ pub fn plan(scene: &Scene<'_>, style: &Style) -> Option<String> {
     furniture::crosses(&mut svg, &map);
     lines.draw(&mut svg, &map);
     linework::axes(&mut svg, &map, &courses);
-    linework::stations(&mut svg, &map, scene, &courses, &mut labels);
+    linework::stations(&mut svg, &map, scene, &courses, &design, &mut labels);
     if let Some(depths) = &depths {
         depths.marks(&mut svg, &map, scene, &mut labels);
     }
     lines.labels(&mut svg, &map, &mut labels);
     if let Some((interval, contours)) = &ground {
-        label_contours(&mut svg, &map, *interval, contours, &mut labels);
+        label_contours(&mut svg, &map, *interval, contours, &design, &mut labels);
     }
     svg.end_window();
     svg.rect("frame", DVec2::new(LEFT, HEAD), map.size);
@@ -158,7 +160,7 @@ fn is_index(level: f64, interval: f64) -> bool {
     (level / interval).round() % 5.0 == 0.0
 }
 
-fn draw_contours(svg: &mut Svg, map: &Map, interval: f64, contours: &[(f64, Vec<lines::Stroke>)]) {
+fn draw_contours(svg: &mut Svg, interval: f64, contours: &[(f64, Vec<lines::Stroke>)]) {
     for (heavy, class) in [(false, "ln contour"), (true, "ln contour i")] {
         let mut path = super::svg::Path::default();
         for (_, strokes) in contours.iter().filter(|(level, _)| is_index(*level, interval) == heavy) {
@@ -166,14 +168,22 @@ fn draw_contours(svg: &mut Svg, map: &Map, interval: f64, contours: &[(f64, Vec<
         }
         svg.path(class, &path);
     }
-    let _ = map;
 }
 
-fn label_contours(svg: &mut Svg, map: &Map, interval: f64, contours: &[(f64, Vec<lines::Stroke>)], labels: &mut Labels) {
+fn label_contours(
+    svg: &mut Svg,
+    map: &Map,
+    interval: f64,
+    contours: &[(f64, Vec<lines::Stroke>)],
+    design: &Drape<'_>,
+    labels: &mut Labels,
+) {
+    // Below the works contours are not seen.
+    let seen = |p: DVec2| design.at(map.to_local(p)).is_none();
     for (level, strokes) in contours.iter().filter(|(level, _)| is_index(*level, interval)) {
         let text = figure(*level, super::scale::decimals(interval));
         for stroke in strokes {
-            linework::label_along(svg, map, stroke, &text, "s m tc halo", labels);
+            linework::label_along(svg, map, stroke, &text, "s m tc halo", labels, seen);
         }
     }
 }

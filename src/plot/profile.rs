@@ -14,7 +14,7 @@ use crate::write::GENERATOR;
 use glam::DVec2;
 
 /// Room on the left for elevations and the names of the rows.
-const LEFT: f64 = 84.0;
+const LEFT: f64 = 116.0;
 const RIGHT: f64 = 26.0;
 const HEAD: f64 = 60.0;
 
@@ -25,7 +25,10 @@ const HEIGHT: (f64, f64) = (250.0, 420.0);
 const ROW: f64 = 19.0;
 
 /// Columns of figures are at least this far apart, in px.
-const COLUMN: f64 = 62.0;
+const COLUMN: f64 = 48.0;
+
+/// A stretch shorter than this has no room for its gradient, in px.
+const SHORTEST: f64 = 32.0;
 
 /// Gradients that differ by less are one, as a share of 1.
 const SAME_GRADIENT: f64 = 2e-5;
@@ -148,6 +151,7 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     svg.text("s soft", DVec2::new(20.0, 43.0), 0.0, &fitted(&text, SMALL, style.width() - 40.0));
 
     let columns = columns(scene, length, scale);
+    let unit = scene.unit.label();
     let row = |i: f64| chart.bottom() + i * ROW;
     chart.columns(&mut svg, &columns, row(rows));
     chart.rows(&mut svg, round_step(26.0 / (scale * factor)));
@@ -164,16 +168,22 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     }
     svg.path("grid", &rules);
     let mut name = |i: f64, text: &str| svg.text("s soft", DVec2::new(12.0, row(i) + 13.0), 0.0, text);
-    name(0.0, "gradient");
+    let stretches = gradients(&course.heights);
+    // Where most stretches are too short for a figure, the mean gradients between stations say more.
+    let short = stretches.windows(2).map(|p| p[1].x - p[0].x).filter(|long| long * scale < SHORTEST).sum::<f64>();
+    let means = columns.iter().filter_map(|x| Some(DVec2::new(*x, height(&course.heights, *x)?)));
+    let (row_name, stretches) =
+        if short > 0.5 * length { ("mean gradient in %", means.collect()) } else { ("gradient in %", stretches) };
+    name(0.0, row_name);
     name(1.0, "line");
     if on_ground {
         name(2.0, "ground");
         name(3.0, "fill +, cut −");
     }
     name(rows - 1.0, "station");
-    draw_gradients(&mut svg, &chart, &gradients(&course.heights), row(0.0), scene.unit.label());
     let design = |x: f64| height(&course.heights, x);
     let terrain = |x: f64| ground.iter().find_map(|run| height(run, x));
+    draw_gradients(&mut svg, &chart, &stretches, row(0.0), unit);
     let baseline = |i: f64| row(i) + 13.0;
     let of = |value: &dyn Fn(f64) -> Option<String>| -> Vec<(f64, String)> {
         columns.iter().filter_map(|x| Some((*x, value(*x)?))).collect()
@@ -186,9 +196,7 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
             chart.below(&mut svg, class, baseline(3.0), of(&|x| Some(signed(depth(x)?, 2))));
         }
     }
-    let step = columns.get(1).map_or(1.0, |x| x - columns[0]);
-    let station = |x: f64| figure(x, if x == length { 2.min(decimals_of(x)) } else { decimals(step) });
-    chart.below(&mut svg, "s b m", baseline(rows - 1.0), of(&|x| Some(station(x))));
+    chart.below(&mut svg, "s b m", baseline(rows - 1.0), of(&|x| Some(station_text(x, &columns))));
 
     let mut y = below;
     for row in legend {
@@ -200,9 +208,12 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     Some(svg.finish())
 }
 
-/// Decimals that a number rounded to two of them has.
-fn decimals_of(x: f64) -> usize {
-    if x.fract().abs() < 0.005 || x.fract().abs() > 0.995 { 0 } else { 2 }
+/// A station as text, with the decimals of its neighbours where it is a multiple as they are, else with two.
+pub(super) fn station_text(station: f64, columns: &[f64]) -> String {
+    let step = columns.get(1).map_or(1.0, |x| x - columns[0]);
+    let share = station / step;
+    let even = (share - share.round()).abs() < 1e-6;
+    figure(station, if even { decimals(step) } else { 2.max(decimals(step)) })
 }
 
 /// Stations with figures: multiples of the spacing of stations where there is one, and the end.
@@ -234,11 +245,11 @@ fn draw_gradients(svg: &mut Svg, chart: &Chart, ends: &[DVec2], y: f64, unit: &s
         if b.x <= a.x {
             continue;
         }
-        let grade = signed(100.0 * (b.y - a.y) / (b.x - a.x), 2);
-        let long = format!("{grade} % · {} {unit}", figure(b.x - a.x, 1));
-        let short = format!("{grade} %");
-        for text in [long, short] {
-            if width(&text, SMALL) + 8.0 < to - from {
+        let percent = 100.0 * (b.y - a.y) / (b.x - a.x);
+        let grade = |digits: usize| signed(percent, digits);
+        let long = format!("{} · {} {unit}", grade(2), figure(b.x - a.x, 1));
+        for text in [long, grade(2), grade(1)] {
+            if width(&text, SMALL) + 4.0 < to - from {
                 svg.text("s m", DVec2::new(0.5 * (from + to), y + 13.0), 0.0, &text);
                 break;
             }

@@ -24,6 +24,13 @@ pub struct Scene<'a> {
     pub ground: Option<OnGround<'a>>,
 }
 
+impl Scene<'_> {
+    /// The title without folders.
+    pub(super) fn name(&self) -> &str {
+        self.title.rsplit(['/', '\\']).next().filter(|name| !name.is_empty()).unwrap_or(self.title)
+    }
+}
+
 /// The existing ground and the works on it.
 #[derive(Clone, Copy, Debug)]
 pub struct OnGround<'a> {

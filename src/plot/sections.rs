@@ -26,6 +26,10 @@ const HEAD: f64 = 34.0;
 /// Least and greatest height of the field.
 const HEIGHT: (f64, f64) = (110.0, 460.0);
 
+/// Room above and below the lines, for figures.
+const ABOVE: f64 = 50.0;
+const UNDER: f64 = 46.0;
+
 /// Design and ground beside each other up to this far, in the length unit, meet at the axis: rounding.
 const AT_AXIS: f64 = 1e-6;
 
@@ -50,8 +54,10 @@ pub(super) struct View {
     pub(super) ground: Vec<Vec<DVec2>>,
     /// Where cut and fill are counted.
     pub(super) counted: (f64, f64),
-    /// What is shown.
-    pub(super) window: (f64, f64),
+    /// The part of the design that is shown, with some ground on both sides.
+    shown: (f64, f64),
+    /// What the field shows.
+    window: (f64, f64),
 }
 
 /// Meshes to be cut, with the extent of the design.
@@ -68,7 +74,8 @@ impl<'a> Cutter<'a> {
         let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         let (lo, hi) = used.fold(empty, |(lo, hi), p| (lo.min(p), hi.max(p)));
         let extent = if lo.is_finite() { hi - lo } else { DVec2::ZERO };
-        let around = 0.5 * extent + 1.0;
+        // The window of a section is hardly wider than the design is anywhere.
+        let around = DVec2::splat(extent.length() + 1.0);
         let ground = scene.ground.as_ref().map(|ground| {
             let within = Some((lo - around, hi + around));
             Drape::new(&ground.terrain.vertices, &ground.terrain.triangles, within)
@@ -76,12 +83,9 @@ impl<'a> Cutter<'a> {
         Self { design: Drape::new(&tin.vertices, &tin.triangles, None), ground, reach: extent.length() + 1.0 }
     }
 
-    /// The section through a point, looking along a direction; `figures` say how far the works of the axis go.
-    fn cut(&self, at: DVec2, along: DVec2, figures: Option<&Section>) -> Option<View> {
-        // `perp` points to the left.
-        let right = -along.perp();
-        let shifted =
-            |run: Run, from: f64| Run { points: run.points.iter().map(|p| DVec2::new(p.x + from, p.y)).collect(), ..run };
+    /// The design in the plane through a point, looking along a direction; `figures` say how far the works of the axis go.
+    fn design(&self, at: DVec2, along: DVec2, figures: Option<&Section>) -> Option<View> {
+        let right = right_of(along);
         let runs = self.design.along(at - right * self.reach, at + right * self.reach);
         let mut runs = runs.into_iter().map(|run| shifted(run, -self.reach));
         let through = |run: &Run| {
@@ -93,40 +97,76 @@ impl<'a> Cutter<'a> {
         let counted = figures.map_or((a, b), |section| (-section.left, section.right));
         // Another leg of the line may lie far away in the same plane: what is counted, and as much again, is enough.
         let (from, to) = (a.max(2.0 * counted.0 - 5.0), b.min(2.0 * counted.1 + 5.0));
-        let margin = (0.12 * (to - from)).max(1.0);
-        let window = (from - margin, to + margin);
-        let ground = self.ground.as_ref().map_or_else(Vec::new, |ground| {
-            let runs = ground.along(at + right * window.0, at + right * window.1);
-            runs.into_iter().map(|run| shifted(run, window.0).points).collect()
-        });
-        Some(View { design, ground, counted, window })
+        let margin = (0.1 * (to - from)).max(1.0);
+        Some(View { design, counted, shown: (from - margin, to + margin), ..View::default() })
+    }
+
+    /// The ground in the window of a view.
+    fn add_ground(&self, at: DVec2, along: DVec2, view: &mut View) {
+        let Some(ground) = &self.ground else { return };
+        let (right, window) = (right_of(along), view.window);
+        let runs = ground.along(at + right * window.0, at + right * window.1);
+        view.ground = runs.into_iter().map(|run| shifted(run, window.0).points).collect();
     }
 }
 
-/// Sections with what they show and count.
-pub(super) fn views(scene: &Scene<'_>, course: &Course, axis: usize, stations: &[f64]) -> Vec<(f64, View)> {
+fn right_of(along: DVec2) -> DVec2 {
+    // `perp` points to the left.
+    -along.perp()
+}
+
+fn shifted(run: Run, from: f64) -> Run {
+    Run { points: run.points.iter().map(|p| DVec2::new(p.x + from, p.y)).collect(), ..run }
+}
+
+/// At the ends of an open axis sections stand this far inside, in the length unit: just there the slopes about the end begin.
+/// More than what [`place`] takes for a vertex.
+const INSIDE: f64 = 2e-6;
+
+/// Sections with what they show and count, in windows that are `width` px wide; and the scale, in px per unit, one for all.
+pub(super) fn views(scene: &Scene<'_>, course: &Course, axis: usize, stations: &[f64], width: f64) -> (f64, Vec<(f64, View)>) {
     let length = course.axis.length;
     let on_axis: Vec<f64> = stations.iter().copied().filter(|s| (0.0..=length).contains(s)).collect();
+    let inside =
+        |s: &f64| if course.axis.closed { *s } else { s.clamp(INSIDE.min(0.5 * length), (length - INSIDE).max(0.5 * length)) };
+    let planes: Vec<f64> = on_axis.iter().map(inside).collect();
     let cutter = Cutter::new(scene);
     // The platform inside a ring belongs to no axis, and is shown whole.
     let figures = scene.ground.as_ref().filter(|_| !course.axis.closed);
-    let figures = figures.map(|g| sections_at(g.pieces.iter(), g.stations, axis, &on_axis)).unwrap_or_default();
+    let figures = figures.map(|g| sections_at(g.pieces.iter(), g.stations, axis, &planes)).unwrap_or_default();
     let view = |(i, station): (usize, &f64)| {
-        let (at, along) = place(&course.axis, *station)?;
-        Some((*station, cutter.cut(at, along, figures.get(i))?))
+        let (at, along) = place(&course.axis, planes[i])?;
+        Some((*station, (at, along), cutter.design(at, along, figures.get(i))?))
     };
-    on_axis.iter().enumerate().filter_map(view).collect()
+    let mut found: Vec<_> = on_axis.iter().enumerate().filter_map(view).collect();
+    let mut scale = f64::INFINITY;
+    for (_, _, View { design, shown: (from, to), .. }) in &found {
+        let (low, high) = range(design.points.iter().filter(|p| (*from..=*to).contains(&p.x)));
+        scale = scale.min(width / (to - from)).min((HEIGHT.1 - ABOVE - UNDER) / (1.3 * (high - low)).max(1e-9));
+    }
+    for (_, (at, along), view) in &mut found {
+        let middle = 0.5 * (view.shown.0 + view.shown.1);
+        let half = 0.5 * width / scale;
+        view.window = (middle - half, middle + half);
+        cutter.add_ground(*at, *along, view);
+    }
+    (scale, found.into_iter().map(|(station, _, view)| (station, view)).collect())
+}
+
+/// Least and greatest height of some points.
+fn range<'a>(points: impl Iterator<Item = &'a DVec2>) -> (f64, f64) {
+    points.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.y), high.max(p.y)))
 }
 
 fn all(scene: &Scene<'_>, axis: usize, stations: &[f64], style: &Style) -> Vec<(f64, Drawn)> {
     let Some(course) = courses(scene).into_iter().nth(axis) else { return Vec::new() };
     let shown = &stations[..stations.len().min(MOST)];
     let left_out = stations.len() - shown.len();
-    let views = views(scene, &course, axis, shown);
+    let (scale, views) = views(scene, &course, axis, shown, style.width() - LEFT - RIGHT);
     let last = views.len();
     let draw = |(i, (station, view)): (usize, (f64, View))| {
         let note = (left_out > 0 && i + 1 == last).then(|| format!("{left_out} more stations are not drawn"));
-        (station, section(scene, &course, station, &view, note.as_deref(), style))
+        (station, section(scene, &course, station, &view, scale, note.as_deref(), style))
     };
     views.into_iter().enumerate().map(draw).collect()
 }
@@ -140,6 +180,9 @@ struct Stretch {
     /// Steepest gradient of the first triangle.
     slope: f64,
 }
+
+/// A slope that a section shows flatter than this is cut nearly along its contours: how it looks there says nothing.
+const LEAST_SEEN: f64 = 0.01;
 
 /// Gradients of a section that differ by less are one.
 const SAME_SLOPE: f64 = 5e-3;
@@ -175,97 +218,115 @@ fn ratio(slope: f64) -> String {
     if run >= 0.995 { format!("1:{short}") } else { format!("1V:{short}H") }
 }
 
-fn section(scene: &Scene<'_>, course: &Course, station: f64, view: &View, note: Option<&str>, style: &Style) -> Drawn {
+fn section(
+    scene: &Scene<'_>,
+    course: &Course,
+    station: f64,
+    view: &View,
+    scale: f64,
+    note: Option<&str>,
+    style: &Style,
+) -> Drawn {
     let unit = scene.unit;
-    let (from, to) = view.window;
+    let (from, to) = view.shown;
     let shown = |p: &&DVec2| (from..=to).contains(&p.x);
-    let heights = view.design.points.iter().chain(view.ground.iter().flatten()).filter(shown).map(|p| p.y);
-    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)));
-    let size_x = style.width() - LEFT - RIGHT;
-    // Room above for figures at the hinge and at the daylight line.
-    let (above, under) = (46.0, 26.0);
-    let scale = (size_x / (to - from)).min((HEIGHT.1 - above - under) / (high - low).max(1e-9));
-    let size_y = ((high - low) * scale + above + under).max(HEIGHT.0).round();
-    let middle = 0.5 * (from + to);
-    let half = 0.5 * size_x / scale;
-    let spare = (size_y - above - under - (high - low) * scale) * 0.5;
-    let bottom = low - (under + spare) / scale;
+    let (low, high) = range(view.design.points.iter().chain(view.ground.iter().flatten()).filter(shown));
+    let size =
+        DVec2::new(style.width() - LEFT - RIGHT, ((high - low) * scale + ABOVE + UNDER).clamp(HEIGHT.0, 1.5 * HEIGHT.1).round());
+    let bottom = 0.5 * (low + high) - 0.5 * (size.y + UNDER - ABOVE) / scale;
     let chart = Chart {
         at: DVec2::new(LEFT, HEAD),
-        size: DVec2::new(size_x, size_y),
-        low: DVec2::new(middle - half, bottom),
-        high: DVec2::new(middle + half, bottom + size_y / scale),
+        size,
+        low: DVec2::new(view.window.0, bottom),
+        high: DVec2::new(view.window.1, bottom + size.y / scale),
     };
 
     let mut between = Between::default();
     view.ground.iter().for_each(|ground| between.add(&view.design.points, ground, view.counted.0, view.counted.1));
     let name = format!("Station {}", figure(station, 2));
     let title = format!("{name} of {}", course.axis.name);
-    let areas = if view.ground.is_empty() {
-        "no ground".to_owned()
-    } else {
-        format!("cut {} {unit}² · fill {} {unit}²", figure(between.cut_area, 2), figure(between.fill_area, 2))
-    };
-    let mut svg = Svg::new(style, DVec2::new(style.width(), HEAD + size_y + 40.0), &title, &format!("Cross-section: {areas}."));
-    svg.text("b", DVec2::new(LEFT, 22.0), 0.0, &fitted(&name, 12.0, 160.0));
+    let areas = [("cut", between.cut_area), ("fill", between.fill_area)]
+        .map(|(what, area)| format!("{what} {} {unit}²", figure(area, 2)));
+    let words = if view.ground.is_empty() { "no ground".to_owned() } else { areas.join(", ") };
+    let mut svg = Svg::new(style, DVec2::new(style.width(), HEAD + size.y + 40.0), &title, &format!("Cross-section: {words}."));
+    svg.text("b", DVec2::new(LEFT, 22.0), 0.0, &fitted(&name, 12.0, 150.0));
+    let mut x = LEFT + 160.0;
+    for (text, class) in areas.iter().zip(["s b cut", "s b fill"]).filter(|_| !view.ground.is_empty()) {
+        svg.text(class, DVec2::new(x, 22.0), 0.0, text);
+        x += width(text, SMALL) + 18.0;
+    }
     let more = note.map_or_else(String::new, |note| format!(" · {note}"));
-    let text = format!("{areas} · {}{more}", course.axis.name);
-    svg.text("s soft", DVec2::new(LEFT + 170.0, 22.0), 0.0, &fitted(&text, SMALL, size_x - 180.0));
+    svg.text(
+        "s soft e",
+        DVec2::new(chart.right(), 22.0),
+        0.0,
+        &fitted(&format!("{}{more}", course.axis.name), SMALL, chart.right() - x),
+    );
 
+    svg.window(chart.at, size);
+    let inner = Chart { at: DVec2::ZERO, ..chart };
     let step = round_step(34.0 / scale);
-    chart.rows(&mut svg, step);
     let across = round_step(56.0 / scale);
     let offsets = multiples(chart.low.x, chart.high.x, across);
-    chart.columns(&mut svg, &offsets, chart.bottom());
-    chart.lines(&mut svg, "c3", &between.cut, true);
-    chart.lines(&mut svg, "f3", &between.fill, true);
-    chart.lines(&mut svg, "ln ground", &view.ground, false);
+    inner.columns(&mut svg, &offsets, size.y);
+    inner.grid_rows(&mut svg, step);
+    inner.lines(&mut svg, "c3", &between.cut, true);
+    inner.lines(&mut svg, "f3", &between.fill, true);
+    inner.lines(&mut svg, "ln ground", &view.ground, false);
     let axis = |y: f64| DVec2::new(0.0, y);
-    chart.lines(&mut svg, "ln axis", &[vec![axis(chart.low.y), axis(chart.high.y)]], false);
-    let design: Vec<DVec2> = view.design.points.iter().filter(shown).copied().collect();
-    chart.lines(&mut svg, "ln design", &[design], false);
-    annotate(&mut svg, &chart, scene.design, view);
+    inner.lines(&mut svg, "ln axis", &[vec![axis(chart.low.y), axis(chart.high.y)]], false);
+    inner.lines(&mut svg, "ln design", std::slice::from_ref(&view.design.points), false);
+    annotate(&mut svg, &inner, scene.design, view);
+    svg.end_window();
     svg.rect("frame", chart.at, chart.size);
+    chart.row_figures(&mut svg, step);
     let digits = super::scale::decimals(across);
     chart.below(&mut svg, "s m soft", chart.bottom() + 15.0, offsets.into_iter().map(|x| (x, signed(x, digits))));
-    let words = format!("offset from the axis, right +; elevations; in {unit}, all to one scale");
+    let words = format!("offset from the axis, right +; lengths and heights in {unit} and in one scale");
     svg.text("s soft", DVec2::new(LEFT, chart.bottom() + 31.0), 0.0, &words);
     svg.finish()
 }
 
-/// Slopes along the design, and figures where they begin and end.
+/// Places on the design that get figures: where a part begins or ends, with the side on which there is room.
+fn marked(all: &[Stretch]) -> Vec<(DVec2, f64)> {
+    // A hinge has room below it in cut, above it in fill; where slopes end it is the other way round.
+    let lift = |slope: Part, hinge: bool| if (slope == Part::CutSlope) == hinge { -1.0 } else { 1.0 };
+    let mut found = Vec::new();
+    for (i, stretch) in all.iter().enumerate() {
+        match i.checked_sub(1).map(|i| all[i].part) {
+            None => found.push((stretch.from, lift(stretch.part, false))),
+            Some(before) if before != stretch.part => {
+                let slope = if before == Part::Platform { stretch.part } else { before };
+                found.push((stretch.from, lift(slope, true)));
+            }
+            Some(_) => {}
+        }
+    }
+    found.extend(all.last().map(|last| (last.to, lift(last.part, false))));
+    found
+}
+
+/// Slopes along the design, and figures where its parts begin and end.
 fn annotate(svg: &mut Svg, chart: &Chart, tin: &Tin, view: &View) {
     let mut labels = Labels::default();
     let all = stretches(tin, &view.design);
-    let (from, to) = view.window;
-    let mut points: Vec<DVec2> = Vec::new();
-    for (i, stretch) in all.iter().enumerate() {
-        let before = i.checked_sub(1).map(|i| all[i].part);
-        if before != Some(stretch.part) {
-            points.push(stretch.from);
-        }
-        if i + 1 == all.len() {
-            points.push(stretch.to);
-        }
-    }
-    for p in points.into_iter().filter(|p| (from..=to).contains(&p.x)) {
+    let (from, to) = view.shown;
+    for (p, side) in marked(&all).into_iter().filter(|(p, _)| (from..=to).contains(&p.x)) {
         let at = chart.px(p);
-        let texts = [format!("{} ", signed(p.x, 2)), figure(p.y, 2)];
+        let texts = [signed(p.x, 2), figure(p.y, 2)];
         let wide = texts.iter().map(|text| width(text, SMALL)).fold(0.0, f64::max);
-        let widest = if texts[0].len() > texts[1].len() { &texts[0] } else { &texts[1] };
         svg.circle("dot", at, 2.6);
-        for lift in [24.0, -24.0, 52.0, -52.0] {
-            let centre = DVec2::new(at.x.clamp(chart.at.x + 0.5 * wide, chart.right() - 0.5 * wide), at.y - lift);
-            let inside = centre.y > chart.at.y + 14.0 && centre.y < chart.bottom() - 14.0;
-            let room = |labels: &mut Labels| {
-                labels.take(centre - DVec2::new(0.0, 6.5), 0.0, widest, SMALL)
-                    && labels.take(centre + DVec2::new(0.0, 6.6), 0.0, widest, SMALL)
-            };
-            if inside && room(&mut labels) {
+        for lift in [26.0, -26.0, 54.0, -54.0].map(|lift| lift * side) {
+            let x = at.x.clamp(0.5 * wide + 3.0, (chart.size.x - 0.5 * wide - 3.0).max(0.0));
+            let centre = DVec2::new(x, at.y - lift);
+            let half = DVec2::new(0.5 * wide + 2.0, 13.5);
+            let inside = centre.y > 14.0 && centre.y < chart.size.y - 14.0;
+            if inside && labels.take_box(centre - half, centre + half) {
                 let mut path = Path::default();
-                path.add(&[at - DVec2::new(0.0, lift.signum() * 4.0), centre + DVec2::new(0.0, lift.signum() * 13.0)], false);
+                let toward = lift.signum();
+                path.add(&[at - DVec2::new(0.0, toward * 4.0), DVec2::new(at.x, centre.y + toward * 13.0)], false);
                 svg.path("tick", &path);
-                svg.text("s m halo", centre - DVec2::new(0.0, 2.5), 0.0, texts[0].trim());
+                svg.text("s m halo", centre - DVec2::new(0.0, 2.5), 0.0, &texts[0]);
                 svg.text("s m halo", centre + DVec2::new(0.0, 10.6), 0.0, &texts[1]);
                 break;
             }
@@ -277,7 +338,7 @@ fn annotate(svg: &mut Svg, chart: &Chart, tin: &Tin, view: &View) {
         let text = match stretch.part {
             Part::Platform if seen < 5e-4 => continue,
             Part::Platform => format!("{} %", figure(100.0 * seen, 1)),
-            _ if ratio(seen) == ratio(stretch.slope) => ratio(seen),
+            _ if seen < LEAST_SEEN || ratio(seen) == ratio(stretch.slope) => ratio(stretch.slope),
             _ => format!("{} ({} here)", ratio(stretch.slope), ratio(seen)),
         };
         if a.distance(b) < width(&text, SMALL) + 10.0 {

@@ -1,5 +1,6 @@
 //! SVG as text: elements with classes, escaped text, numbers of few digits.
 
+use super::labels::fitted;
 use super::style::{Style, file_css};
 use glam::DVec2;
 use std::fmt::Write as _;
@@ -103,15 +104,19 @@ pub(super) struct Drawn {
     pub(super) size: DVec2,
 }
 
-/// Drawings below each other in one file. They are parts, not standalone.
-pub(super) fn sheet(parts: &[Drawn], title: &str, note: Option<&str>) -> String {
+/// Drawings below each other in one file, below their title if it is `headed`. They are parts, not standalone.
+pub(super) fn sheet(parts: &[Drawn], title: &str, headed: bool, note: Option<&str>) -> String {
     /// Room for a line of text.
     const LINE: f64 = 34.0;
-    let rows = parts.iter().map(|part| part.size.y).sum::<f64>();
+    let head = if headed { LINE } else { 0.0 };
+    let rows = head + parts.iter().map(|part| part.size.y).sum::<f64>();
     let width = parts.iter().map(|part| part.size.x).fold(Style::FILE.width, f64::max);
     let size = DVec2::new(width, rows + if note.is_some() { LINE } else { 0.0 });
     let mut svg = Svg::new(&Style::FILE, size, title, note.unwrap_or(title));
-    let mut y = 0.0;
+    let mut y = head;
+    if headed {
+        svg.text("h1", DVec2::new(20.0, 24.0), 0.0, &fitted(title, 17.0, size.x - 40.0));
+    }
     for part in parts {
         svg.text.push_str(&part.text.replacen("<svg ", &format!("<svg y=\"{}\" ", number(y)), 1));
         y += part.size.y;

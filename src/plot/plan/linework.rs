@@ -41,7 +41,7 @@ pub(super) struct LineWork<'a> {
 }
 
 /// Level curves are at least about this far apart, in px, or only every second, fifth, … is drawn.
-const CURVES_APART: f64 = 4.0;
+const CURVES_APART: f64 = 5.0;
 
 impl<'a> LineWork<'a> {
     /// Puts the line work on the map.
@@ -72,6 +72,11 @@ impl<'a> LineWork<'a> {
         self.interval
     }
 
+    /// Without ground there is nothing odd about an end.
+    fn class(&self, kind: CurveKind, class: &'static str) -> &'static str {
+        if kind == CurveKind::Boundary && !self.on_ground { "ln daylight" } else { class }
+    }
+
     fn heavy(&self, feature: &LineFeature) -> bool {
         feature.elevation.zip(self.interval).is_some_and(|(z, interval)| is_index(z, interval))
     }
@@ -90,7 +95,7 @@ impl<'a> LineWork<'a> {
                 (CurveKind::Boundary, _) if !self.on_ground => "end of the slopes".to_owned(),
                 _ => (*name).to_owned(),
             };
-            blocks.push(Block::symbol(Sample::Line(class), &text));
+            blocks.push(Block::symbol(Sample::Line(self.class(*kind, class)), &text));
             if *kind == CurveKind::Hinge && courses.iter().any(|course| course.road) {
                 blocks.push(Block::symbol(Sample::Line("ln axis"), "axis"));
             }
@@ -105,6 +110,7 @@ impl<'a> LineWork<'a> {
     pub(super) fn draw(&self, svg: &mut Svg, map: &Map) {
         let _ = map;
         for (kind, class, _) in KINDS {
+            let class = self.class(kind, class);
             let of_kind = || self.features.iter().filter(|(f, _)| f.kind == kind);
             let path = |heavy: bool| {
                 let mut path = Path::default();
@@ -118,12 +124,15 @@ impl<'a> LineWork<'a> {
 
     /// Heights on level curves: of every fifth, or of all where there are few.
     pub(super) fn labels(&self, svg: &mut Svg, map: &Map, labels: &mut Labels) {
-        let Some(interval) = self.interval else { return };
+        // Chosen heights are all written.
+        let digits = |z: f64| {
+            self.interval.map_or_else(|| (0..3).find(|n| is_multiple(z, 0.1f64.powi(*n))).unwrap_or(3) as usize, decimals)
+        };
         let curves = || self.features.iter().filter(|(f, _)| f.kind == CurveKind::LevelCurve);
         let any_heavy = curves().any(|(f, _)| self.heavy(f));
         for (feature, stroke) in curves() {
             let Some(z) = feature.elevation.filter(|_| self.heavy(feature) || !any_heavy) else { continue };
-            label_along(svg, map, stroke, &figure(z, decimals(interval)), "s m halo", labels);
+            label_along(svg, map, stroke, &figure(z, digits(z)), "s m halo", labels, |_| true);
         }
     }
 }
@@ -183,17 +192,19 @@ const TICK: f64 = 5.0;
 /// Stations with a figure are at least this far apart, in px.
 const APART: f64 = 46.0;
 
+/// The figure of a station this near the end of an axis gives way to that of the end, in px.
+const CROWDED: f64 = 18.0;
+
 /// Most ticks of one drawing.
 const MOST_TICKS: usize = 2000;
 
 /// Stations along the axes, where intervals were asked for.
-pub(super) fn stations(svg: &mut Svg, map: &Map, scene: &Scene<'_>, courses: &[Course], labels: &mut Labels) {
+pub(super) fn stations(svg: &mut Svg, map: &Map, scene: &Scene<'_>, courses: &[Course], design: &Drape<'_>, labels: &mut Labels) {
     let Some(ground) = &scene.ground else { return };
     let Some(spacing) = ground.stations.spacing() else { return };
     // Where intervals are too short to be seen, multiples of them.
     let every = |apart: f64| spacing * round_step(apart / map.scale / spacing).max(1.0).ceil();
     let (ticks, figures) = (every(5.0), every(APART));
-    let design = Drape::new(&scene.design.vertices, &scene.design.triangles, None);
     let mut path = Path::default();
     let mut count = 0;
     for (i, course) in courses.iter().enumerate() {
@@ -211,11 +222,12 @@ pub(super) fn stations(svg: &mut Svg, map: &Map, scene: &Scene<'_>, courses: &[C
             let left = DVec2::new(-along.y, -along.x);
             path.add(&[at - left * TICK, at + left * TICK], false);
             count += 1;
-            if !(is_multiple(station, figures) || station == axis.length) || !map.shows(at, 12.0) {
+            let crowded = station < axis.length && (axis.length - station) * map.scale < CROWDED && !axis.closed;
+            if !(is_multiple(station, figures) || station == axis.length) || crowded || !map.shows(at, 12.0) {
                 continue;
             }
             let digits = if is_multiple(station, spacing) { decimals(spacing) } else { 2 };
-            label_station(svg, map, &design, (at, left), &figure(station, digits), labels);
+            label_station(svg, map, design, (at, left), &figure(station, digits), labels);
         }
     }
     svg.path("ln thin", &path);
@@ -266,7 +278,15 @@ fn centred(svg: &mut Svg, class: &str, centre: DVec2, turn: f64, text: &str) {
 const REPEAT: f64 = 320.0;
 
 /// Writes a text on a line, where the line is straight enough and there is room: about its middle, and again on long lines.
-pub(super) fn label_along(svg: &mut Svg, map: &Map, stroke: &Stroke, text: &str, class: &str, labels: &mut Labels) {
+pub(super) fn label_along(
+    svg: &mut Svg,
+    map: &Map,
+    stroke: &Stroke,
+    text: &str,
+    class: &str,
+    labels: &mut Labels,
+    free: impl Fn(DVec2) -> bool,
+) {
     let long = width(text, SMALL) + 6.0;
     let mut stations = vec![0.0];
     let closing = stroke.closed.then(|| stroke.points.first()).flatten();
@@ -292,7 +312,7 @@ pub(super) fn label_along(svg: &mut Svg, map: &Map, stroke: &Stroke, text: &str,
             let (from, middle, to) = (at(station - 0.5 * long), at(station), at(station + 0.5 * long));
             // Straight: the chord is nearly as long as the line, and the middle lies on it.
             let straight = from.distance(to) > 0.93 * long && middle.distance(0.5 * (from + to)) < 2.5;
-            if !straight || !map.shows(from, 4.0) || !map.shows(to, 4.0) {
+            if !straight || !map.shows(from, 4.0) || !map.shows(to, 4.0) || ![from, middle, to].into_iter().all(&free) {
                 continue;
             }
             let turn = upright((to - from).to_angle().to_degrees());
