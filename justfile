@@ -25,6 +25,10 @@ test:
 doc:
     RUSTDOCFLAGS="-D warnings" cargo doc --no-deps
 
+# The schemas of the JSON reports under docs/, from the program; tests compare them
+schema:
+    cargo run --example schema
+
 # Figures of speed; see docs/performance.md
 bench:
     cargo bench --bench engine

@@ -32,7 +32,7 @@ const EDGE: [(&str, &[&str]); 9] = [
     ("indicatif", &["cli"]),
     ("ctrlc", &["cli"]),
     ("geojson", &["read", "write"]),
-    ("csv", &["read"]),
+    ("csv", &["read", "report"]),
     ("spade", &["mesh", "terrain"]),
     ("tobj", &["read"]),
     ("tempfile", &["write"]),

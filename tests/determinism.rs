@@ -89,6 +89,7 @@ fn run(folder: &Path, threads: &str) -> Vec<(&'static str, Vec<u8>)> {
         .timeout(std::time::Duration::from_secs(120))
         .assert()
         .success();
+    assert_eq!(common::schema::check_folder(folder), 1);
     let read = |name: &'static str| {
         let content = fs::read(folder.join(name)).expect(name);
         (name, if name == "r.json" { without_times(&content) } else { content })

@@ -111,7 +111,7 @@ pub(super) struct BuildArgs {
     /// Write the mesh; .obj or .ply, may be repeated [default: the input's name with .obj, in the working folder]
     #[arg(short, long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) output: Vec<OsString>,
-    /// Write the report; .json, .txt or .html, may be repeated [default: as text to standard output]
+    /// Write the report; .json, .txt, .md or .html, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
     /// Write slope stakes for every --stations and side: hinge, catch point, distances, slope; .csv, may be repeated
@@ -123,6 +123,9 @@ pub(super) struct BuildArgs {
     /// Stations of the cross-sections drawn, such as 40,80,120 [default: those of --stations]
     #[arg(long, value_name = "S", value_delimiter = ',', allow_negative_numbers = true, help_heading = help::OUTPUT)]
     pub(super) section: Vec<String>,
+    /// Write the table of stations, all digits; .csv, may be repeated; needs --stations
+    #[arg(long, value_name = "FILE", requires = "stations", help_heading = help::OUTPUT)]
+    pub(super) station_table: Vec<OsString>,
     /// Write level curves, creases, hinge, daylight line and boundary; .geojson, may be repeated
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) lines: Vec<OsString>,
@@ -188,7 +191,7 @@ pub(super) struct VolumeArgs {
     #[arg(long, value_name = "ORDER", help_heading = help::INPUT)]
     pub(super) csv_order: Option<String>,
 
-    /// Write the report; .json, .txt or .html, may be repeated [default: as text to standard output]
+    /// Write the report; .json, .txt, .md or .html, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
 

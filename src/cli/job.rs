@@ -244,11 +244,13 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     let bulking = checks.bulking(args);
     if args.terrain.is_none() {
         let finished = args.finished.first().map(|name| name.to_string_lossy().into_owned());
+        let table = args.station_table.first().map(|name| name.to_string_lossy().into_owned());
         checks.needs_ground(&[
             ("--stations", args.stations.as_ref().filter(|_| args.stakes.is_empty())),
             ("--swell", args.swell.as_ref()),
             ("--shrink", args.shrink.as_ref()),
             ("--finished", finished.as_ref()),
+            ("--station-table", table.as_ref()),
             ("--allow-open", args.allow_open.then(String::new).as_ref()),
         ]);
     } else if let Some(z) = &args.reference {
@@ -299,6 +301,10 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         checks.format(ending(target, "table of slope stakes", &["csv"], "`.csv`"));
     }
     let plots = checks.plots(args);
+    let station_tables = targets(&args.station_table);
+    for target in &station_tables {
+        checks.format(ending(target, "table", &["csv"], "`.csv`"));
+    }
     let mut reports = Vec::new();
     for target in targets(&args.report) {
         let format = checks.format(ReportFormat::of(&target));
@@ -313,6 +319,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         .chain(&lines)
         .chain(&stakes)
         .chain(plots.iter().map(|(t, _)| t))
+        .chain(&station_tables)
         .chain(reports.iter().map(|(t, _)| t))
         .any(|t| *t == Target::Stdout);
     if !used && !args.running.quiet {
@@ -352,6 +359,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         stakes,
         plots,
         sections,
+        station_tables,
         reports,
     });
     checks.finish(job)

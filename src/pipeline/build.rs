@@ -6,7 +6,7 @@ use crate::ground::{Pieces, Stations, Tallied, axes};
 use crate::model::{Bulking, Line, LineFeature, Note, Sheet, Terrain, Tin};
 use crate::plot::{self, Drawing, OnGround, Scene};
 use crate::read::Source;
-use crate::report::{CrossfallFigures, Report, ReportFormat};
+use crate::report::{CrossfallFigures, Report, ReportFormat, write_station_table};
 use crate::setout::{self, Stake};
 use crate::slope::levels::LEVEL_SNAP;
 use crate::surface;
@@ -42,6 +42,8 @@ pub struct BuildJob {
     pub plots: Vec<(Target, Drawing)>,
     /// Stations of the cross-sections to be drawn; none: all of `stations`, in a report some.
     pub sections: Vec<f64>,
+    /// Where tables of the stations go, as CSV; needs stations.
+    pub station_tables: Vec<Target>,
     /// Where reports go.
     pub reports: Vec<(Target, ReportFormat)>,
 }
@@ -63,6 +65,7 @@ enum Content {
     Lines,
     Stakes,
     Plot(Drawing),
+    Stations,
     Report(ReportFormat),
 }
 
@@ -111,6 +114,7 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
             Content::Finished(format) => finished.as_ref().map_or(Ok(()), |tin| format.write(out, tin)),
             Content::Lines => write_lines(out, &lines, crs).map(drop),
             Content::Stakes => write_stakes(out, &stakes),
+            Content::Stations => write_station_table(out, report),
             Content::Plot(drawing) => Ok(out.write_all(plot::file(&scene, drawing, &job.sections).as_bytes())?),
             Content::Report(format) => format.write(out, report, &scene, &job.sections),
         })
@@ -214,10 +218,11 @@ fn wanted(job: &BuildJob) -> Vec<(Target, Content)> {
     let meshes = job.meshes.iter().map(|(target, format)| (target.clone(), Content::Mesh(*format)));
     let finished = job.finished.iter().map(|(target, format)| (target.clone(), Content::Finished(*format)));
     let lines = job.lines.iter().map(|target| (target.clone(), Content::Lines));
+    let tables = job.station_tables.iter().map(|target| (target.clone(), Content::Stations));
     let reports = job.reports.iter().map(|(target, format)| (target.clone(), Content::Report(*format)));
     let stakes = job.stakes.iter().map(|target| (target.clone(), Content::Stakes));
     let plots = job.plots.iter().map(|(target, drawing)| (target.clone(), Content::Plot(*drawing)));
-    meshes.chain(finished).chain(lines).chain(stakes).chain(plots).chain(reports).collect()
+    meshes.chain(finished).chain(lines).chain(stakes).chain(tables).chain(plots).chain(reports).collect()
 }
 
 /// The order in which outputs are written. Files first, because they can still be taken back; standard output last; of each kind

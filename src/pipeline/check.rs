@@ -66,7 +66,9 @@ pub fn check(job: &CheckJob, observer: &dyn Observer) -> Result<Looked, Error> {
     let bound = job.slope.as_ref().map(|wish| bound(wish, &raw)).transpose()?;
     watch.stage_of(CHECKING);
     let options = Options { gap: job.gap, places: job.places, bound };
-    let report = look(raw, &options, &watch);
+    let unit = raw.source.unit.unwrap_or_default();
+    let mut report = look(raw, &options, &watch);
+    report.units = unit.into();
     watch.stage_of(WRITING);
     // Standard output last: files can still be taken back.
     let mut order: Vec<usize> = (0..targets.len()).collect();

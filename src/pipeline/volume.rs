@@ -1,14 +1,15 @@
 //! Cut and fill between two surfaces that are given.
 
 use super::watch::{CHECKING, Observer, Stopwatch, WRITING};
-use super::{Error, read_ground};
+use super::{Error, figures, read_ground};
+use crate::kernel::sum::Sum;
 use crate::mesh::inside::inside;
 use crate::model::{Chain, Defect, Defects, Note, Role, Terrain};
 use crate::overlay::{self, Between, OverlayError, Surface};
 use crate::read::terrain::TerrainOptions;
 use crate::read::{self, ColumnOrder, ReadOptions, Source};
 use crate::report::between::{BetweenDepths, BetweenReference, BetweenReport, BetweenTiming, BetweenVolumes, MeshFigures};
-use crate::report::{Balance, Detail, Input, ReportFormat, SCHEMA, Tool, Warning};
+use crate::report::{Balance, Detail, Input, METHOD, METHOD_TEXT, ReportFormat, SCHEMA, SIGN_RULE, Tool, Warning};
 use crate::surface::Watch;
 use crate::validate;
 use crate::write::{Outputs, Target};
@@ -144,17 +145,15 @@ pub fn volume(job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Erro
     notes(&found).iter().for_each(|note| Stopwatch::note(&watch, note));
 
     let roles = design.is_some().then_some("design").into_iter().chain(["existing"]);
-    let mut inputs: Vec<Input> = roles.zip(sources()).map(|(role, source)| input(role, source)).collect();
-    inputs.extend(area.iter().map(|(_, source)| input("within", source)));
+    let mut inputs: Vec<Input> = roles.zip(sources()).map(|(role, source)| figures::input(role, source)).collect();
+    inputs.extend(area.iter().map(|(_, source)| figures::input("within", source)));
     let meshes = design.iter().map(|d| ("design", &d.0)).chain([("existing", &existing.0)]);
     let mut report = BetweenReport {
         schema: SCHEMA,
         tool: Tool::default(),
         inputs,
         units: unit.into(),
-        meshes: meshes
-            .map(|(role, mesh)| MeshFigures { role, vertices: mesh.vertices.len(), triangles: mesh.triangles.len() })
-            .collect(),
+        meshes: meshes.map(|(role, mesh)| mesh_figures(role, mesh)).collect(),
         volumes: volumes(&found, &job.against, &existing.1),
         areas: found.areas.into(),
         depths: BetweenDepths::from(&found),
@@ -180,23 +179,40 @@ fn volumes(found: &Between, against: &Against, existing: &Source) -> BetweenVolu
         Against::Elevation { elevation, .. } => BetweenReference::Plane { elevation: *elevation },
     };
     BetweenVolumes {
-        method: "prisms",
+        method: METHOD,
+        method_text: METHOD_TEXT,
         cut: found.cut,
         fill: found.fill,
         net: found.net(),
+        sign_rule: SIGN_RULE,
         balance: Balance::of(found.cut, found.fill),
+        complete: found.areas.design_uncovered == 0.0,
         cells: (found.cells > 0).then_some(found.cells),
         reference,
     }
 }
 
-fn input(role: &str, source: &Source) -> Input {
-    Input {
-        role: role.to_owned(),
-        path: if source.label == "<stdin>" { "-".to_owned() } else { source.label.clone() },
-        sha256: source.sha256.clone(),
-        format: source.format.name().to_owned(),
-        crs: source.crs.clone(),
+/// Size, heights and areas of a mesh as it takes part.
+fn mesh_figures(role: &'static str, mesh: &Terrain) -> MeshFigures {
+    let (mut plan, mut surface) = (Sum::default(), Sum::default());
+    let (mut z_min, mut z_max) = (f64::INFINITY, f64::NEG_INFINITY);
+    for [a, b, c] in (0..mesh.triangles.len()).map(|t| mesh.corners(t)) {
+        let normal = (b - a).cross(c - a);
+        plan.add(0.5 * normal.z.abs());
+        surface.add(0.5 * normal.length());
+        for corner in [a, b, c] {
+            let z = mesh.frame.to_world(corner).z;
+            (z_min, z_max) = (z_min.min(z), z_max.max(z));
+        }
+    }
+    MeshFigures {
+        role,
+        vertices: mesh.vertices.len(),
+        triangles: mesh.triangles.len(),
+        z_min,
+        z_max,
+        plan_area: plan.value(),
+        surface_area: surface.value(),
     }
 }
 

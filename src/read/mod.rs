@@ -109,6 +109,8 @@ pub struct Source {
     pub label: String,
     /// Its format.
     pub format: InputFormat,
+    /// Size in bytes.
+    pub bytes: u64,
     /// SHA-256 of the bytes, in lower-case hexadecimal digits.
     pub sha256: String,
     /// Name of the coordinate reference system as the file gives it.
@@ -322,5 +324,6 @@ fn load(path: &Path, options: &ReadOptions) -> Result<(String, InputFormat, Vec<
 
 fn source(label: &str, format: InputFormat, bytes: &[u8]) -> Source {
     let sha256 = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-    Source { label: label.to_owned(), format, sha256, crs: None, kind: CoordinateKind::Unknown, unit: None }
+    let size = bytes.len() as u64;
+    Source { label: label.to_owned(), format, bytes: size, sha256, crs: None, kind: CoordinateKind::Unknown, unit: None }
 }

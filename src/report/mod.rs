@@ -1,4 +1,5 @@
-//! What a run has to tell: as data ([`Report`]), as JSON for machines, as text and as a page for people.
+//! What a run has to tell: as data ([`Report`]), as JSON for machines, as text, Markdown and as a page for people, its rows as
+//! tables.
 
 pub mod between;
 pub mod check;
@@ -6,6 +7,9 @@ pub mod ground;
 pub mod html;
 pub mod json;
 pub mod model;
+mod page;
+pub mod schema;
+pub mod tables;
 pub mod text;
 pub mod volumes;
 
@@ -13,15 +17,18 @@ pub mod volumes;
 mod testing;
 
 pub use between::BetweenReport;
-pub use check::{CHECK_SCHEMA, CheckReport, Checked, render_check};
+pub use check::{CHECK_SCHEMA, CheckReport, Checked, render_check, render_check_markdown};
 pub use ground::{
     Daylight, EndArea, FinishedFigures, GroundAreas, PadRow, SectionRow, SectionSlopes, SlopeRange, StationRow, TerrainFigures,
     ThreeSections, station_rows,
 };
 pub use json::write_json;
 pub use model::*;
-pub use text::{write_between, write_text};
-pub use volumes::{Balance, BulkingFigures, CutFillFigures, DepthPlace, Depths, Reference, VolumeParts, Volumes};
+pub use tables::write_station_table;
+pub use text::{write_between, write_between_markdown, write_markdown, write_text};
+pub use volumes::{
+    Balance, BulkingFigures, CutFillFigures, DepthPlace, Depths, METHOD, METHOD_TEXT, Reference, SIGN_RULE, VolumeParts, Volumes,
+};
 
 use crate::plot::Scene;
 use crate::write::{EncodeError, Target, UnknownFormat, ending};
@@ -34,13 +41,15 @@ pub enum ReportFormat {
     Json,
     /// For people.
     Text,
+    /// The same for those who publish it.
+    Markdown,
     /// For people with a browser: one page with drawings, that needs nothing else.
     Html,
 }
 
 impl ReportFormat {
     /// The format of a target: by the ending of its name, upper or lower case. Standard output and existing devices and pipes
-    /// whose names end in neither take text.
+    /// whose names end in none of them take text.
     ///
     /// # Errors
     /// [`UnknownFormat`] for any other ending, or none.
@@ -49,9 +58,10 @@ impl ReportFormat {
         match ending(path).as_deref() {
             Some("json") => Ok(Self::Json),
             Some("txt") => Ok(Self::Text),
+            Some("md" | "markdown") => Ok(Self::Markdown),
             Some("html" | "htm") => Ok(Self::Html),
             _ if target.is_stream() => Ok(Self::Text),
-            _ => Err(UnknownFormat { what: "report", path: path.clone(), known: "`.json`, `.txt` or `.html`" }),
+            _ => Err(UnknownFormat { what: "report", path: path.clone(), known: "`.json`, `.txt`, `.md` or `.html`" }),
         }
     }
 
@@ -68,6 +78,7 @@ impl ReportFormat {
         match self {
             Self::Json => write_json(out, report),
             Self::Text => write_text(out, report),
+            Self::Markdown => write_markdown(out, report),
             Self::Html => html::write_html(out, report, scene, sections),
         }
     }
@@ -80,6 +91,7 @@ impl ReportFormat {
         match self {
             Self::Json => write_json(out, report),
             Self::Text => write_between(out, report),
+            Self::Markdown => write_between_markdown(out, report),
             Self::Html => html::write_between_html(out, report),
         }
     }
@@ -95,10 +107,12 @@ mod tests {
         assert_eq!(of("r.JSON"), Ok(ReportFormat::Json));
         assert_eq!(of("r.txt"), Ok(ReportFormat::Text));
         assert_eq!(of("r.Html"), Ok(ReportFormat::Html));
+        assert_eq!(of("r.Md"), Ok(ReportFormat::Markdown));
         assert_eq!(ReportFormat::of(&Target::Stdout), Ok(ReportFormat::Text));
         assert_eq!(
             of("r.pdf").unwrap_err().to_string(),
-            "no format is known for the ending `.pdf`\n  --> r.pdf\n   = help: end the name of a report in `.json`, `.txt` or `.html`"
+            "no format is known for the ending `.pdf`\n  --> r.pdf\n   = help: end the name of a report in `.json`, `.txt`, `.md` or \
+             `.html`"
         );
     }
 

@@ -2,6 +2,8 @@
 
 mod build;
 mod check;
+#[path = "../common/mod.rs"]
+mod common;
 mod golden;
 mod ground;
 mod help;
@@ -83,6 +85,7 @@ impl Site {
             .timeout(PATIENCE)
             .output()
             .unwrap();
+        common::schema::check_folder(self.folder.path());
         Run {
             code: output.status.code().unwrap_or(-1),
             stdout: String::from_utf8_lossy(&output.stdout).into_owned(),

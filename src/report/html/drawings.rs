@@ -2,7 +2,7 @@
 
 use crate::ground;
 use crate::plot::{self, Scene, Style};
-use crate::report::text::printable;
+use crate::report::page::printable;
 use crate::report::{DepthPlace, Report};
 use maud::{Markup, PreEscaped, html};
 

@@ -1,7 +1,7 @@
 //! Numbers and tables of the pages.
 
 use crate::model::Slope;
-use crate::report::text::printable;
+use crate::report::page::printable;
 use crate::report::{Input, SlopeFigures};
 use maud::{Markup, html};
 

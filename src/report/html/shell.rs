@@ -2,7 +2,7 @@
 
 use super::view::View;
 use crate::plot;
-use crate::report::text::printable;
+use crate::report::page::printable;
 use crate::report::{Tool, Warning};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
