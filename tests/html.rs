@@ -43,9 +43,18 @@ fn commands(pages: &Pages) -> Vec<(&'static str, String)> {
     let hostile = file("hostile.geojson");
     vec![
         ("road.html", format!("{ROAD} -o {} --finished {}", file("road.obj"), file("finished.obj"))),
-        ("pad.html", format!("build fixtures/hill_pad.geojson --slope 1:1.5 --terrain fixtures/ground.obj -o {}", file("pad.obj"))),
-        ("pit.html", format!("build fixtures/pit.csv --closed --side inside --slope 45deg --to-elevation 402 -o {}", file("pit.obj"))),
-        ("hostile.html", format!("build {hostile} --width 7 --slope 1:1 --terrain fixtures/ground.obj -o {}", file("hostile.obj"))),
+        (
+            "pad.html",
+            format!("build fixtures/hill_pad.geojson --slope 1:1.5 --terrain fixtures/ground.obj -o {}", file("pad.obj")),
+        ),
+        (
+            "pit.html",
+            format!("build fixtures/pit.csv --closed --side inside --slope 45deg --to-elevation 402 -o {}", file("pit.obj")),
+        ),
+        (
+            "hostile.html",
+            format!("build {hostile} --width 7 --slope 1:1 --terrain fixtures/ground.obj -o {}", file("hostile.obj")),
+        ),
         ("volume.html", format!("volume {} fixtures/ground.obj", file("finished.obj"))),
         ("level.html", "volume fixtures/ground.obj --to-elevation 625".to_owned()),
         ("check.html", format!("check {} --slope 1:1.5", file("pad.obj"))),
@@ -159,12 +168,19 @@ fn pages_are_well_formed_and_closed_in_themselves() {
         let scripts: Vec<_> = tags.iter().filter(|(tag, a)| tag == "script" && !a.contains_key("type")).collect();
         let views = ["road.html", "pad.html", "pit.html", "hostile.html"];
         assert_eq!(scripts.len(), usize::from(views.contains(&name)), "{name}");
-        assert!(!tags.iter().any(|(tag, _)| ["img", "iframe", "object", "embed", "form", "base"].contains(&tag.as_str())), "{name}");
+        assert!(
+            !tags.iter().any(|(tag, _)| ["img", "iframe", "object", "embed", "form", "base"].contains(&tag.as_str())),
+            "{name}"
+        );
         assert!(page.contains("default-src 'none'") && page.contains("<html lang=\"en\">"), "{name}");
         // Nothing that could be fetched: the only addresses are names of namespaces.
         for (at, _) in page.match_indices("://") {
             let before = &page[..at];
-            assert!(before.ends_with("xmlns=\"http") || before.ends_with("xmlns:xlink=\"http"), "{name}: {:?}", &page[at.saturating_sub(60)..at + 40]);
+            assert!(
+                before.ends_with("xmlns=\"http") || before.ends_with("xmlns:xlink=\"http"),
+                "{name}: {:?}",
+                &page[at.saturating_sub(60)..at + 40]
+            );
         }
         // Exactly one heading of the page, and no level left out.
         let levels: Vec<u8> = tags.iter().filter_map(|(t, _)| t.strip_prefix('h')?.parse().ok()).collect();
@@ -174,8 +190,7 @@ fn pages_are_well_formed_and_closed_in_themselves() {
         let count = |tag: &str| tags.iter().filter(|(t, _)| t == tag).count();
         assert_eq!(count("table"), count("caption"), "{name}");
         assert!(tags.iter().all(|(t, a)| t != "th" || a.contains_key("scope")), "{name}");
-        let footer = page.split("<footer>").nth(1).unwrap();
-        assert!(footer.contains("no survey certificate"), "{name}");
+        assert!(page.contains("not a survey certificate") && page.contains("slopegen "), "{name}");
     }
 }
 
@@ -272,7 +287,10 @@ fn mesh(path: &Path) -> Vec<[[f64; 3]; 3]> {
         .map(|line| <[f64; 3]>::try_from(fields(line).iter().map(|f| f.parse().unwrap()).collect::<Vec<f64>>()).unwrap())
         .collect();
     let corner = |field: &String| vertices[field.parse::<usize>().unwrap() - 1];
-    text.lines().filter(|line| line.starts_with("f ")).map(|line| <[[f64; 3]; 3]>::try_from(fields(line).iter().map(corner).collect::<Vec<_>>()).unwrap()).collect()
+    text.lines()
+        .filter(|line| line.starts_with("f "))
+        .map(|line| <[[f64; 3]; 3]>::try_from(fields(line).iter().map(corner).collect::<Vec<_>>()).unwrap())
+        .collect()
 }
 
 /// Height of a mesh at a place in plan.
@@ -292,7 +310,9 @@ fn canvas(browser: &mut Browser) -> Picture {
 
 /// Pixels that are clearly red, and clearly blue.
 fn red_and_blue(picture: &Picture) -> (usize, usize) {
-    let count = |pick: fn(i32, i32, i32) -> bool| picture.pixels().filter(|[r, g, b]| pick((*r).into(), (*g).into(), (*b).into())).count();
+    let count = |pick: fn(i32, i32, i32) -> bool| {
+        picture.pixels().filter(|[r, g, b]| pick((*r).into(), (*g).into(), (*b).into())).count()
+    };
     (count(|r, g, b| r > g + 50 && r > b + 40), count(|r, _, b| b > r + 50))
 }
 

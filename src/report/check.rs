@@ -6,8 +6,8 @@ mod tests;
 mod text;
 
 pub use figures::*;
-pub use text::{render_check, render_check_markdown};
 pub(super) use text::{percent, place, share, verdict};
+pub use text::{render_check, render_check_markdown};
 
 use super::html::write_check_html;
 use super::json::write_json;

@@ -74,7 +74,13 @@ impl ReportFormat {
     ///
     /// # Errors
     /// As [`write_json`], [`write_text`] and [`html::write_html`].
-    pub fn write(self, out: &mut (impl Write + ?Sized), report: &Report, scene: &Scene<'_>, sections: &[f64]) -> Result<(), EncodeError> {
+    pub fn write(
+        self,
+        out: &mut (impl Write + ?Sized),
+        report: &Report,
+        scene: &Scene<'_>,
+        sections: &[f64],
+    ) -> Result<(), EncodeError> {
         match self {
             Self::Json => write_json(out, report),
             Self::Text => write_text(out, report),

@@ -72,7 +72,9 @@ fn program() -> Option<PathBuf> {
         std::env::split_paths(&path).flat_map(|folder| names.map(|name| folder.join(name))).find(|file| file.is_file())
     });
     if found.is_none() {
-        eprintln!("SKIPPED: there is no chromium, chromium-browser or google-chrome, and CHROMIUM is not set: no page was opened");
+        eprintln!(
+            "SKIPPED: there is no chromium, chromium-browser or google-chrome, and CHROMIUM is not set: no page was opened"
+        );
     }
     found
 }
@@ -125,7 +127,8 @@ impl Browser {
             head.push(byte[0]);
         }
         assert!(head.starts_with(b"HTTP/1.1 101"), "{}", String::from_utf8_lossy(&head));
-        let mut browser = Self { child, _profile: profile, stream, session: None, calls: 0, events: VecDeque::new(), _alone: alone };
+        let mut browser =
+            Self { child, _profile: profile, stream, session: None, calls: 0, events: VecDeque::new(), _alone: alone };
         let targets = browser.call("Target.getTargets", json!({}));
         let page = targets["targetInfos"].as_array().unwrap().iter().find(|t| t["type"] == "page").unwrap()["targetId"].clone();
         let session = browser.call("Target.attachToTarget", json!({ "targetId": page, "flatten": true }));
@@ -269,7 +272,8 @@ impl Browser {
         let [x, y, width, height] = self.frame(selector);
         let scroll = self.evaluate("[scrollX, scrollY]");
         let (x, y) = (x + scroll[0].as_f64().unwrap(), y + scroll[1].as_f64().unwrap());
-        let clip = json!({ "x": x.ceil(), "y": y.ceil(), "width": width.floor() - 1.0, "height": height.floor() - 1.0, "scale": 1 });
+        let clip =
+            json!({ "x": x.ceil(), "y": y.ceil(), "width": width.floor() - 1.0, "height": height.floor() - 1.0, "scale": 1 });
         let answer = self.call("Page.captureScreenshot", json!({ "format": "png", "clip": clip, "captureBeyondViewport": true }));
         let bytes = STANDARD.decode(answer["data"].as_str().unwrap()).unwrap();
         let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();

@@ -1,7 +1,8 @@
 //! The page of `volume`: two surfaces, or a surface and a level.
 
-use super::parts::{Fact, Units, count, facts, inputs, name, number, plain, point};
-use super::shell::{Page, Section};
+use super::parts::{Fact, Units, count, depths_head, depths_row, facts, inputs, name, number, plain, point};
+use super::proof::units_of;
+use super::shell::{Page, Section, noted};
 use super::volumes::net;
 use crate::report::between::{BetweenReference, BetweenReport, Spot};
 use crate::report::json::all_finite;
@@ -21,7 +22,7 @@ pub fn write_between_html(out: &mut (impl Write + ?Sized), report: &BetweenRepor
 }
 
 pub(super) fn render(report: &BetweenReport) -> String {
-    let units = Units(&report.units.length);
+    let units = Units(report.units.length);
     let v = &report.volumes;
     let title = match &v.reference {
         BetweenReference::Terrain { .. } => "Two surfaces".to_owned(),
@@ -58,6 +59,14 @@ fn summary(report: &BetweenReport, units: Units<'_>) -> Markup {
         p.verdict {
             strong.cut { "Cut " (units.volume(v.cut)) } ", " strong.fill { "fill " (units.volume(v.fill)) } ": " (net(rest, v.balance, units)) "."
         }
+        ul.marks {
+            @if v.complete {
+                li.good { "Complete: all of the design lies over the existing surface" }
+            } @else {
+                li.bad { "NOT complete: " (units.area(a.uncovered)) " of the design do not lie over the existing surface" }
+            }
+            @if !report.warnings.is_empty() { li.warn { (noted(report.warnings.len())) } }
+        }
         dl.tiles {
             (tile("Cut", "cut", v.cut, "³", None))
             (tile("Fill", "fill", v.fill, "³", None))
@@ -87,15 +96,15 @@ fn areas(report: &BetweenReport, units: Units<'_>) -> Markup {
 
 fn depths(report: &BetweenReport, units: Units<'_>) -> Markup {
     let d = &report.depths;
-    let place = |spot: Option<Spot>| spot.map_or_else(String::new, |s| point(s.x, s.y, Some(s.z)));
+    let place = |spot: Option<Spot>| html! { @if let Some(s) = spot { (point(s.x, s.y, Some(s.z))) } };
     html! {
         div.scroll {
             table {
-                caption { "Greatest vertical depths, and where they are" }
-                thead { tr { th scope="col" { "" } th.n scope="col" { "Depth" } th scope="col" { "Place" } } }
+                caption { "Vertical depths, and where the greatest are; the mean is volume over area" }
+                (depths_head())
                 tbody {
-                    tr { th.cut scope="row" { "Cut" } td.n { (units.length(d.cut_max)) } td { (place(d.cut_max_at)) } }
-                    tr { th.fill scope="row" { "Fill" } td.n { (units.length(d.fill_max)) } td { (place(d.fill_max_at)) } }
+                    (depths_row("Cut", "cut", d.cut_max, d.cut_mean, &place(d.cut_max_at), units))
+                    (depths_row("Fill", "fill", d.fill_max, d.fill_mean, &place(d.fill_max_at), units))
                 }
             }
         }
@@ -103,14 +112,31 @@ fn depths(report: &BetweenReport, units: Units<'_>) -> Markup {
 }
 
 fn meshes(report: &BetweenReport) -> Markup {
-    let size = |vertices, triangles| html! { (count(vertices)) " vertices, " (count(triangles)) " triangles" };
-    let mut rows: Vec<Fact> = report.meshes.iter().map(|m| Fact::new(m.role, size(m.vertices, m.triangles))).collect();
-    rows.extend(report.volumes.cells.map(|cells| Fact::new("prisms summed up", count(cells))));
-    facts("The surfaces as read", &rows)
+    let unit = report.units.length;
+    html! {
+        div.scroll tabindex="0" role="region" aria-label="Surfaces" {
+            table {
+                caption { "The surfaces as read" }
+                thead { tr {
+                    th scope="col" { "Surface" } th.n scope="col" { "Vertices" } th.n scope="col" { "Triangles" } th.n scope="col" { "Lowest, " (unit) }
+                    th.n scope="col" { "Highest, " (unit) } th.n scope="col" { "Area in plan, " (report.units.area) }
+                    th.n scope="col" { "Area of the surface, " (report.units.area) }
+                } }
+                tbody {
+                    @for m in &report.meshes {
+                        tr {
+                            th scope="row" { (m.role) } td.n { (count(m.vertices)) } td.n { (count(m.triangles)) }
+                            td.n { (plain(m.z_min, 3)) } td.n { (plain(m.z_max, 3)) } td.n { (number(m.plan_area, 2)) } td.n { (number(m.surface_area, 2)) }
+                        }
+                    }
+                }
+            }
+        }
+        @if let Some(cells) = report.volumes.cells { p { (count(cells)) " prisms were summed up." } }
+    }
 }
 
 fn method(report: &BetweenReport) -> Markup {
-    let unit = &report.units.length;
     html! {
         ul.plain {
             li {
@@ -127,13 +153,12 @@ fn method(report: &BetweenReport) -> Markup {
             }
             li {
                 strong { "Sign rule. " }
-                "Cut is where the design lies below the existing surface, fill where it lies above. Net = cut − fill: positive is a surplus, soil is \
-                 left over; negative is a deficit, soil must be brought. Cut, fill, areas and depths are never negative."
+                "Cut is where the design lies below the existing surface, fill where it lies above; " (report.volumes.sign_rule)
+                ". Cut, fill, areas and depths are never negative."
             }
             li {
                 strong { "Units. " }
-                "Coordinates are taken as given; lengths in " (unit) ", areas in " (unit) "², volumes in " (unit) "³. They are grid figures: no scale \
-                 factor has been applied, and nothing for swell or shrink."
+                (units_of(&report.units)) " Nothing has been added for swell or shrink."
             }
         }
     }

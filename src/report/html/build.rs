@@ -1,8 +1,8 @@
 //! The page of `build`.
 
-use super::parts::{Fact, Units, count, facts, forms, inputs, name, number, plain, point, short};
+use super::parts::{Fact, Units, count, depths_head, depths_row, facts, forms, inputs, name, number, plain, point, short};
 use super::proof::{certificate, method, passed};
-use super::shell::{Page, Section};
+use super::shell::{Page, Section, noted};
 use super::view::{MOST_TRIANGLES, View, view};
 use super::{drawings, volumes};
 use crate::model::CurveKind;
@@ -24,12 +24,7 @@ const MOST_LEVELS: usize = 24;
 ///
 /// # Errors
 /// [`EncodeError::ReportNotFinite`] as [`crate::report::write_json`]; [`EncodeError::Io`] from the sink.
-pub fn write_html(
-    out: &mut (impl Write + ?Sized),
-    report: &Report,
-    scene: &Scene<'_>,
-    asked: &[f64],
-) -> Result<(), EncodeError> {
+pub fn write_html(out: &mut (impl Write + ?Sized), report: &Report, scene: &Scene<'_>, asked: &[f64]) -> Result<(), EncodeError> {
     all_finite(report)?;
     out.write_all(render(report, scene, asked).as_bytes())?;
     Ok(())
@@ -38,7 +33,7 @@ pub fn write_html(
 pub(super) fn render(report: &Report, scene: &Scene<'_>, asked: &[f64]) -> String {
     let deepest = report.depths.as_ref().map_or([0.0; 2], |d| [d.cut_max, d.fill_max]);
     let view = view(scene, deepest, MOST_TRIANGLES);
-    let units = Units(&report.units.length);
+    let units = Units(report.units.length);
     let mut sections = Vec::new();
     let mut add = |id, title, body: Option<Markup>| sections.extend(body.map(|body| Section { id, title, body }));
     add("plan", "Plan", drawings::plan(scene));
@@ -58,7 +53,11 @@ pub(super) fn render(report: &Report, scene: &Scene<'_>, asked: &[f64]) -> Strin
     let title = report.inputs.first().map_or("", |input| input.path.as_str());
     let title = if title == "-" { "standard input" } else { title.rsplit(['/', '\\']).next().unwrap_or(title) };
     let page = Page {
-        kind: if report.terrain.is_some() { "Earthworks report: cut and fill" } else { "Earthworks report: surface of constant slope" },
+        kind: if report.terrain.is_some() {
+            "Earthworks report: cut and fill"
+        } else {
+            "Earthworks report: surface of constant slope"
+        },
         title,
         summary: summary(report, units),
         warnings: &report.warnings,
@@ -98,7 +97,7 @@ fn summary(report: &Report, units: Units<'_>) -> Markup {
             }
             @if sound { li.good { "Certificate passed" } } @else { li.bad { "Certificate NOT passed" } }
             @if !report.warnings.is_empty() {
-                li.warn { a href="#warnings" { (report.warnings.len()) @if report.warnings.len() == 1 { " warning or note" } @else { " warnings and notes" } } }
+                li.warn { (noted(report.warnings.len())) }
             }
         }
         (tiles(report, units))
@@ -265,11 +264,11 @@ fn depths(report: &Report, units: Units<'_>) -> Option<Markup> {
         @if let Some(d) = depths {
             div.scroll {
                 table {
-                    caption { "Greatest vertical depths, and where they are" }
-                    thead { tr { th scope="col" { "" } th.n scope="col" { "Depth" } th scope="col" { "Place" } } }
+                    caption { "Vertical depths, and where the greatest are; the mean is volume over area" }
+                    (depths_head())
                     tbody {
-                        tr { th.cut scope="row" { "Cut" } td.n { (units.length(d.cut_max)) } td { (place(d.cut_max_at.as_ref())) } }
-                        tr { th.fill scope="row" { "Fill" } td.n { (units.length(d.fill_max)) } td { (place(d.fill_max_at.as_ref())) } }
+                        (depths_row("Cut", "cut", d.cut_max, d.cut_mean, &place(d.cut_max_at.as_ref()), units))
+                        (depths_row("Fill", "fill", d.fill_max, d.fill_mean, &place(d.fill_max_at.as_ref()), units))
                     }
                 }
             }
@@ -306,7 +305,10 @@ fn line(report: &Report, units: Units<'_>) -> Markup {
     }
     given.extend(width.map(|width| Fact::new("Width of the road", units.length(width))));
     if let Some(fall) = crossfall.filter(|fall| fall.left != 0.0 || fall.right != 0.0) {
-        given.push(Fact::new("Crossfall, left and right", html! { (plain(100.0 * fall.left, 2)) " %, " (plain(100.0 * fall.right, 2)) " %" }));
+        given.push(Fact::new(
+            "Crossfall, left and right",
+            html! { (plain(100.0 * fall.left, 2)) " %, " (plain(100.0 * fall.right, 2)) " %" },
+        ));
     }
     if breaklines > 0 {
         given.push(Fact::new("Breaklines and spot heights", count(breaklines)));

@@ -26,7 +26,7 @@ pub fn write_check_html(out: &mut (impl Write + ?Sized), report: &CheckReport) -
 }
 
 pub(super) fn render(report: &CheckReport) -> String {
-    let units = Units(&report.units.length);
+    let units = Units(report.units.length);
     let mut sections = Vec::new();
     let mut add = |id, title, body: Option<Markup>| sections.extend(body.map(|body| Section { id, title, body }));
     add("findings", "Findings", Some(findings(&report.findings)));
@@ -37,8 +37,15 @@ pub(super) fn render(report: &CheckReport) -> String {
     add("inputs", "Inputs", Some(inputs(&report.inputs)));
     let title = report.inputs.first().map_or("", |input| input.path.as_str());
     let title = if title == "-" { "standard input" } else { title.rsplit(['/', '\\']).next().unwrap_or(title) };
-    let page =
-        Page { kind: "Check of a surface", title, summary: summary(report, units), warnings: &report.warnings, sections, view: None, tool: &report.tool };
+    let page = Page {
+        kind: "Check of a surface",
+        title,
+        summary: summary(report, units),
+        warnings: &report.warnings,
+        sections,
+        view: None,
+        tool: &report.tool,
+    };
     page.render()
 }
 
@@ -93,7 +100,14 @@ fn findings(findings: &[FindingFigures]) -> Markup {
 fn bound(b: &BoundFigures) -> Markup {
     let mut rows = vec![
         Fact::new("Slope", html! { (forms(b.slope)) ", within " (b.tolerance_deg) "°" }),
-        Fact::new("Asked of", if b.parts.is_empty() { html! { "all that is not level" } } else { name(&b.parts.join(", ")) }),
+        Fact::new(
+            "Asked of",
+            if b.parts.is_empty() {
+                html! { "all that is not level" }
+            } else {
+                name(&b.parts.join(", "))
+            },
+        ),
         Fact::new("On it", html! { (share(&b.within)) }),
         Fact::new("Off it", html! { (share(&b.off)) "; " (percent(b.max_off)) " may be" }),
     ];
@@ -116,7 +130,11 @@ fn bound(b: &BoundFigures) -> Markup {
 fn slopes(s: &SlopesFigures) -> Markup {
     let mut rows = Vec::new();
     for (title, found) in [("Flattest", &s.flattest), ("Steepest", &s.steepest)] {
-        rows.extend(found.as_ref().map(|f| Fact::new(title, html! { (plain(f.degrees, 4)) "° " span.soft { (place(&f.place).trim_start()) } })));
+        rows.extend(
+            found
+                .as_ref()
+                .map(|f| Fact::new(title, html! { (plain(f.degrees, 4)) "° " span.soft { (place(&f.place).trim_start()) } })),
+        );
     }
     rows.push(Fact::new("Mean over the area", html! { (plain(s.mean_degrees, 4)) "°" }));
     for common in &s.common {
@@ -201,7 +219,10 @@ fn mesh(report: &CheckReport, units: Units<'_>) -> Markup {
         }
     }
     if let Some(smallest) = &report.angles.smallest {
-        rows.push(Fact::new("Smallest angle", html! { (plain(smallest.degrees, 4)) "° " span.soft { (place(&smallest.place).trim_start()) } }));
+        rows.push(Fact::new(
+            "Smallest angle",
+            html! { (plain(smallest.degrees, 4)) "° " span.soft { (place(&smallest.place).trim_start()) } },
+        ));
     }
     facts("The mesh as read", &rows)
 }

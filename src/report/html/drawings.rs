@@ -56,11 +56,15 @@ fn along(scene: &Scene<'_>, class: &str, draw: impl Fn(usize, &str, f64) -> Vec<
 }
 
 pub(super) fn profile(scene: &Scene<'_>) -> Option<Markup> {
-    along(scene, "sheets", |i, name, _| plot::profile(scene, i, &Style::INLINE).map(|svg| figure(&format!("Long profile of {name}"), svg)).into_iter().collect())
+    along(scene, "sheets", |i, name, _| {
+        plot::profile(scene, i, &Style::INLINE).map(|svg| figure(&format!("Long profile of {name}"), svg)).into_iter().collect()
+    })
 }
 
 pub(super) fn mass_haul(scene: &Scene<'_>) -> Option<Markup> {
-    along(scene, "sheets", |i, name, _| plot::mass_haul(scene, i, &Style::INLINE).map(|svg| figure(&format!("Mass haul of {name}"), svg)).into_iter().collect())
+    along(scene, "sheets", |i, name, _| {
+        plot::mass_haul(scene, i, &Style::INLINE).map(|svg| figure(&format!("Mass haul of {name}"), svg)).into_iter().collect()
+    })
 }
 
 /// Cross-sections where they were asked for, or at some of the stations and where cut and fill are deepest.
@@ -84,8 +88,10 @@ pub(super) fn sections(report: &Report, scene: &Scene<'_>, asked: &[f64]) -> Opt
         let count = stations.len();
         stations.truncate(MOST_ASKED);
         let drawn = plot::sections(scene, i, &stations, &Style { width: SECTION_WIDTH, ..Style::INLINE });
-        let mut figures: Vec<Markup> =
-            drawn.into_iter().map(|(station, svg)| figure(&format!("Cross-section of {name} at station {station:.2}"), svg)).collect();
+        let mut figures: Vec<Markup> = drawn
+            .into_iter()
+            .map(|(station, svg)| figure(&format!("Cross-section of {name} at station {station:.2}"), svg))
+            .collect();
         if count > MOST_ASKED {
             figures.push(html! { p.small { "The first " (MOST_ASKED) " of " (count) " cross-sections; `--plot sections.svg` draws all." } });
         }

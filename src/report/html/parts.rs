@@ -111,6 +111,23 @@ pub(super) fn point(x: f64, y: f64, z: Option<f64>) -> String {
     format!("E {}, N {}{z}", plain(x, 3), plain(y, 3))
 }
 
+/// Heading of a table of depths.
+pub(super) fn depths_head() -> Markup {
+    html! {
+        thead { tr { th scope="col" { "Depth" } th.n scope="col" { "Greatest" } th.n scope="col" { "Mean" } th scope="col" { "Place of the greatest" } } }
+    }
+}
+
+/// A row of it.
+pub(super) fn depths_row(title: &str, class: &str, most: f64, mean: Option<f64>, place: &Markup, units: Units<'_>) -> Markup {
+    html! {
+        tr {
+            th.(class) scope="row" { (title) } td.n { (units.length(most)) }
+            td.n { @if let Some(mean) = mean { (units.length(mean)) } } td { (place) }
+        }
+    }
+}
+
 /// The files read.
 pub(super) fn inputs(inputs: &[Input]) -> Markup {
     html! {
@@ -118,7 +135,7 @@ pub(super) fn inputs(inputs: &[Input]) -> Markup {
             table {
                 caption { "The files read, with the SHA-256 of their bytes: the same digits, the same file" }
                 thead {
-                    tr { th scope="col" { "Used for" } th scope="col" { "File" } th scope="col" { "Format" } th scope="col" { "Coordinate system" } th scope="col" { "SHA-256" } }
+                    tr { th scope="col" { "Used for" } th scope="col" { "File" } th scope="col" { "Format" } th.n scope="col" { "Bytes" } th scope="col" { "Coordinate system" } th scope="col" { "SHA-256" } }
                 }
                 tbody {
                     @for input in inputs {
@@ -126,6 +143,7 @@ pub(super) fn inputs(inputs: &[Input]) -> Markup {
                             th scope="row" { (name(&input.role)) }
                             td { @if input.path == "-" { "standard input" } @else { (name(&input.path)) } }
                             td { (name(&input.format)) }
+                            td.n { (input.bytes) }
                             td { @if let Some(crs) = &input.crs { (name(crs)) } @else { span.soft { "not given" } } }
                             td { code { (name(&input.sha256)) } }
                         }
@@ -142,13 +160,9 @@ mod tests {
 
     #[test]
     fn figures_are_those_of_the_report() {
-        for (value, decimals, expected) in [
-            (0.0, 2, "0.00"),
-            (-0.004, 2, "0.00"),
-            (-0.006, 2, "−0.01"),
-            (1234.5, 2, "1234.50"),
-            (-12_345.678, 1, "−12345.7"),
-        ] {
+        for (value, decimals, expected) in
+            [(0.0, 2, "0.00"), (-0.004, 2, "0.00"), (-0.006, 2, "−0.01"), (1234.5, 2, "1234.50"), (-12_345.678, 1, "−12345.7")]
+        {
             assert_eq!(plain(value, decimals), expected);
         }
     }

@@ -1,6 +1,7 @@
 //! Certificate and method on the page of `build`.
 
 use super::parts::{Units, plain};
+use crate::report::page::in_metres;
 use crate::report::text::{angle, short};
 use crate::report::{Certificate, Report};
 use crate::surface::{CONE_BOUND, STRIP_BOUND};
@@ -11,7 +12,23 @@ pub(super) fn passed(report: &Report) -> bool {
     let Certificate { paired, manifold, overlaps, input_edges_kept, .. } = report.certificate;
     let c = report.certificate;
     let sound = paired && manifold && overlaps == 0 && input_edges_kept && c.triangles_beyond_0_1deg == 0;
-    sound && c.strip_max_deviation_deg <= STRIP_BOUND && c.sector_max_deviation_deg <= CONE_BOUND
+    sound && height_kept(report) && c.strip_max_deviation_deg <= STRIP_BOUND && c.sector_max_deviation_deg <= CONE_BOUND
+}
+
+/// Whether heights are within the tolerance; coordinates add rounding, relative to the largest of them.
+fn height_kept(report: &Report) -> bool {
+    /// Rounding of heights, in the length unit: 10⁻¹² of ten kilometres, as the certificate itself allows.
+    const ROUNDING: f64 = 1e-8;
+    report.certificate.height_max_deviation <= report.design.tolerance + ROUNDING
+}
+
+/// What the units are.
+pub(super) fn units_of(units: &crate::report::Units) -> Markup {
+    html! {
+        "Coordinates are taken as given; lengths, heights and stations in " (units.length) ", areas in " (units.area) ", volumes in " (units.volume)
+        @if let Some(metres) = in_metres(units) { "; " (metres) }
+        ". They are grid figures: no scale factor has been applied."
+    }
 }
 
 struct Check {
@@ -26,7 +43,13 @@ fn checks(report: &Report, unit: &str) -> Vec<Check> {
     let c = report.certificate;
     let yes = |yes: bool| if yes { "yes" } else { "NO" }.to_owned();
     let truth = |name, good: bool, meaning| Check { name, measured: yes(good), wanted: "yes".to_owned(), good, meaning };
-    let none = |name, count: usize, meaning| Check { name, measured: count.to_string(), wanted: "0".to_owned(), good: count == 0, meaning };
+    let none = |name, count: usize, meaning| Check {
+        name,
+        measured: count.to_string(),
+        wanted: "0".to_owned(),
+        good: count == 0,
+        meaning,
+    };
     let within = |name, degrees: f64, bound: f64, meaning| Check {
         name,
         measured: format!("{}°", angle(degrees)),
@@ -35,19 +58,41 @@ fn checks(report: &Report, unit: &str) -> Vec<Check> {
         meaning,
     };
     vec![
-        truth("Facets pair", c.paired, "Every crease between two facets is there from both sides: the slopes have no gap, nothing was missed."),
-        truth("Manifold", c.manifold, "No edge has more than two triangles, no vertex pinches, all triangles face up: one clean surface."),
+        truth(
+            "Facets pair",
+            c.paired,
+            "Every crease between two facets is there from both sides: the slopes have no gap, nothing was missed.",
+        ),
+        truth(
+            "Manifold",
+            c.manifold,
+            "No edge has more than two triangles, no vertex pinches, all triangles face up: one clean surface.",
+        ),
         none("Overlaps", c.overlaps, "Pairs of triangles on each other in plan: each place has one height."),
-        truth("Line kept as edges", c.input_edges_kept, "Every segment of the given line is a chain of edges of the mesh: the line was not moved."),
-        within("Slope deviation, planar strips", c.strip_max_deviation_deg, STRIP_BOUND, "Greatest angle by which a triangle on a straight stretch is off the slope asked for."),
-        within("Slope deviation, cones", c.sector_max_deviation_deg, CONE_BOUND, "The same round convex corners, where narrow wedges stand for a cone."),
+        truth(
+            "Line kept as edges",
+            c.input_edges_kept,
+            "Every segment of the given line is a chain of edges of the mesh: the line was not moved.",
+        ),
+        within(
+            "Slope deviation, planar strips",
+            c.strip_max_deviation_deg,
+            STRIP_BOUND,
+            "Greatest angle by which a triangle on a straight stretch is off the slope asked for.",
+        ),
+        within(
+            "Slope deviation, cones",
+            c.sector_max_deviation_deg,
+            CONE_BOUND,
+            "The same round convex corners, where narrow wedges stand for a cone.",
+        ),
         none("Triangles beyond 0.1°", c.triangles_beyond_0_1deg, "Slope triangles further off the slope than that."),
         Check {
             name: "Height deviation",
             measured: format!("{} {unit}", short(c.height_max_deviation)),
-            wanted: "at most the tolerance".to_owned(),
-            good: true,
-            meaning: "Greatest difference between mesh and closed form of the surface through the given line, at up to 2048 triangles.",
+            wanted: format!("at most {} {unit}", report.design.tolerance),
+            good: height_kept(report),
+            meaning: "Greatest difference between mesh and closed form of the surface through the given line, at up to 2048 triangles; the tolerance asked for.",
         },
     ]
 }
@@ -78,7 +123,7 @@ pub(super) fn certificate(report: &Report, units: Units<'_>) -> Markup {
 }
 
 pub(super) fn method(report: &Report) -> Markup {
-    let unit = &report.units.length;
+    let unit = report.units.length;
     let soil = report.volumes.as_ref().and_then(|v| v.bulking);
     html! {
         ul.plain {
@@ -97,15 +142,11 @@ pub(super) fn method(report: &Report) -> Markup {
             @if let Some(v) = &report.volumes {
                 li {
                     strong { "Volumes. " }
-                    @if v.method == "prisms" {
-                        "Prisms over all pairs of triangles that lie over each other: exact for the two surfaces, no cells and no sections."
-                    } @else { "Computed by " (v.method) "." }
-                    " Simplification of the line and the chords of cones change each volume by " (plain(v.error_bound, 2)) " " (unit) "³ at most."
+                    "Computed by " (v.method) ", " (v.method_text) ". Simplification of the line and the chords of cones change each volume by " (plain(v.error_bound, 2)) " " (unit) "³ at most."
                 }
                 li {
                     strong { "Sign rule. " }
-                    "Net = cut − fill. Positive is a surplus: soil is left over. Negative is a deficit: soil must be brought. Cut, fill, areas and \
-                     depths are never negative."
+                    "In this report " (v.sign_rule) ". Cut, fill, areas and depths are never negative."
                 }
             }
             @if soil.is_some() {
@@ -124,8 +165,7 @@ pub(super) fn method(report: &Report) -> Markup {
             }
             li {
                 strong { "Units. " }
-                "Coordinates are taken as given; lengths, heights and stations in " (unit) ", areas in " (unit) "², volumes in " (unit) "³. They \
-                 are grid figures: no scale factor has been applied."
+                (units_of(&report.units))
             }
         }
     }

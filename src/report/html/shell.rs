@@ -2,7 +2,7 @@
 
 use super::view::View;
 use crate::plot;
-use crate::report::page::printable;
+use crate::report::page::{NOTE, printable};
 use crate::report::{Tool, Warning};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -47,9 +47,9 @@ impl Page<'_> {
     pub(super) fn render(&self) -> String {
         let title = printable(self.title);
         // Nothing may be fetched, and no script may run but the one whose hash stands here.
-        let script = self.view.map_or_else(|| "'none'".to_owned(), |_| {
-            format!("'sha256-{}'", STANDARD.encode(Sha256::digest(VIEWER.as_bytes())))
-        });
+        let script = self
+            .view
+            .map_or_else(|| "'none'".to_owned(), |_| format!("'sha256-{}'", STANDARD.encode(Sha256::digest(VIEWER.as_bytes()))));
         let policy = format!(
             "default-src 'none'; style-src 'unsafe-inline'; script-src {script}; img-src data:; base-uri 'none'; form-action 'none'"
         );
@@ -71,6 +71,7 @@ impl Page<'_> {
                         p.kind { (self.kind) }
                         h1 { (title) }
                         (self.summary)
+                        p.soft.small { (NOTE) }
                     }
                     nav aria-label="Contents" {
                         ol {
@@ -94,9 +95,9 @@ impl Page<'_> {
                             ". The same inputs and options give the same page, byte for byte."
                         }
                         p {
-                            strong { "This is no survey certificate. " }
-                            "The figures are exact for the files named here and say nothing about whether these show the site as it is. \
-                             Check control, datum, units and date of the survey before setting out or settling an account."
+                            strong { "Before setting out or settling an account " }
+                            "check control, datum, units and date of the survey: the figures are exact for the files, and say nothing about \
+                             whether these show the site as it is."
                         }
                     }
                     @if let Some(view) = self.view {
@@ -108,6 +109,11 @@ impl Page<'_> {
         };
         page.into_string()
     }
+}
+
+/// How many warnings there are, and where.
+pub(super) fn noted(count: usize) -> Markup {
+    html! { a href="#warnings" { (count) @if count == 1 { " warning or note" } @else { " warnings and notes" } } }
 }
 
 fn warnings(warnings: &[Warning]) -> Markup {

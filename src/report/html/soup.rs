@@ -69,7 +69,8 @@ impl Soup {
         let mut cell = (2.0 * size.x * size.y / most.max(1) as f64).sqrt().max(size.max_element() / most.max(1) as f64);
         for _ in 0..MOST_STEPS {
             let merged = self.merged(lo, cell);
-            let kept = self.triangles.iter().map(|t| t.map(|v| merged[v as usize])).filter(|[a, b, c]| a != b && b != c && c != a);
+            let kept =
+                self.triangles.iter().map(|t| t.map(|v| merged[v as usize])).filter(|[a, b, c]| a != b && b != c && c != a);
             if kept.clone().count() <= most {
                 self.triangles = kept.collect();
                 self.pack();
@@ -179,7 +180,8 @@ mod tests {
             }
         }
         // All on one line in plan: nothing to divide by.
-        let mut line = Soup { vertices: vec![DVec3::ZERO, DVec3::Z, DVec3::NEG_Z], values: vec![], triangles: vec![[0, 1, 2]; 9] };
+        let mut line =
+            Soup { vertices: vec![DVec3::ZERO, DVec3::Z, DVec3::NEG_Z], values: vec![], triangles: vec![[0, 1, 2]; 9] };
         assert!(line.thin(3).is_some() && line.triangles.is_empty());
     }
 }

@@ -71,7 +71,8 @@ pub(super) fn view(scene: &Scene<'_>, deepest: [f64; 2], most: usize) -> Option<
             thin(&mut works, "mesh of the works");
             put("works", &works);
             if missing {
-                let mut bare = Soup { vertices: design.vertices.clone(), values: Vec::new(), triangles: design.triangles.clone() };
+                let mut bare =
+                    Soup { vertices: design.vertices.clone(), values: Vec::new(), triangles: design.triangles.clone() };
                 thin(&mut bare, "design");
                 put("bare", &bare);
             }

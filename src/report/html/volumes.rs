@@ -120,7 +120,9 @@ fn compared(v: &Volumes, pads: Option<PadRow>, units: Units<'_>) -> Markup {
     // Sections know nothing of platforms without stations.
     let pads = pads.unwrap_or_default();
     let exact = CutFillFigures { cut: v.cut - pads.cut, fill: v.fill - pads.fill };
-    let share = |figure: f64, exact: f64| if exact > 0.0 { format!("{} %", plain(100.0 * (figure / exact - 1.0), 2)) } else { String::new() };
+    let share = |figure: f64, exact: f64| {
+        if exact > 0.0 { format!("{} %", plain(100.0 * (figure / exact - 1.0), 2)) } else { String::new() }
+    };
     html! {
         h3 { "Beside the figures of cross-sections" }
         div.scroll {
