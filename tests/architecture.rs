@@ -26,7 +26,7 @@ const ORDER: [&str; 18] = [
 ];
 
 /// Packages that stay at the edge, with the modules that may name them.
-const EDGE: [(&str, &[&str]); 9] = [
+const EDGE: [(&str, &[&str]); 10] = [
     ("anyhow", &["cli", "main"]),
     ("clap", &["cli", "main"]),
     ("indicatif", &["cli"]),
@@ -36,7 +36,11 @@ const EDGE: [(&str, &[&str]); 9] = [
     ("spade", &["mesh", "terrain"]),
     ("tobj", &["read"]),
     ("tempfile", &["write"]),
+    ("maud", &["report"]),
 ];
+
+/// The files that may turn doubles into single-precision numbers, for readers that take no others.
+const SINGLE_PRECISION: [&str; 1] = ["report/html/bytes.rs"];
 
 /// Lines of a file, its tests not counted, beyond which it must be split.
 const LONGEST_FILE: usize = 800;
@@ -240,7 +244,10 @@ fn numbers_are_double_and_nothing_prints() {
     let mut found = Vec::new();
     for source in sources() {
         for (number, line) in &source.lines {
-            let single = ["f32", "Vec2", "Vec3", "Vec4", "Mat3", "Mat4"].iter().any(|word| has_word(line, word));
+            let converts = SINGLE_PRECISION.iter().any(|file| source.path == Path::new(file));
+            let single = ["f32", "Vec2", "Vec3", "Vec4", "Mat3", "Mat4"]
+                .iter()
+                .any(|word| has_word(line, word) && !(converts && *word == "f32"));
             let prints = ["println!", "print!", "eprintln!", "eprint!", "dbg!"].iter().any(|word| has_word(line, word));
             if single || prints {
                 found.push(format!("src/{}:{number}: {}", source.path.display(), line.trim()));

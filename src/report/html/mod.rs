@@ -13,8 +13,6 @@ mod parts;
 mod proof;
 mod shell;
 mod soup;
-#[cfg(test)]
-mod tests;
 mod view;
 mod volumes;
 
