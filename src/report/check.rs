@@ -2,7 +2,7 @@
 
 mod figures;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 mod text;
 
 pub use figures::*;

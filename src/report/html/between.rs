@@ -53,11 +53,13 @@ fn summary(report: &BetweenReport, units: Units<'_>) -> Markup {
     // What is left of rounding is no deficit.
     let rest = if v.net.abs() < ROUNDED { 0.0 } else { v.net };
     let tile = |title: &str, class: &str, value: f64, power: &str, note: Option<&str>| {
-        html! { div { dt { (title) } dd class=(class) { (number(value, 2)) " " span.u { (unit) (power) } } @if let Some(note) = note { dd.note { (note) } } } }
+        html! { div { dt { (title) } dd class=(class) { (number(value, 2)) " " span.u { (unit) (power) } }
+            @if let Some(note) = note { dd.note { (note) } } } }
     };
     html! {
         p.verdict {
-            strong.cut { "Cut " (units.volume(v.cut)) } ", " strong.fill { "fill " (units.volume(v.fill)) } ": " (net(rest, v.balance, units)) "."
+            strong.cut { "Cut " (units.volume(v.cut)) } ", " strong.fill { "fill " (units.volume(v.fill)) } ": "
+                (net(rest, v.balance, units)) "."
         }
         ul.marks {
             @if v.complete {
@@ -118,7 +120,8 @@ fn meshes(report: &BetweenReport) -> Markup {
             table {
                 caption { "The surfaces as read" }
                 thead { tr {
-                    th scope="col" { "Surface" } th.n scope="col" { "Vertices" } th.n scope="col" { "Triangles" } th.n scope="col" { "Lowest, " (unit) }
+                    th scope="col" { "Surface" } th.n scope="col" { "Vertices" } th.n scope="col" { "Triangles" }
+                        th.n scope="col" { "Lowest, " (unit) }
                     th.n scope="col" { "Highest, " (unit) } th.n scope="col" { "Area in plan, " (report.units.area) }
                     th.n scope="col" { "Area of the surface, " (report.units.area) }
                 } }
@@ -126,7 +129,8 @@ fn meshes(report: &BetweenReport) -> Markup {
                     @for m in &report.meshes {
                         tr {
                             th scope="row" { (m.role) } td.n { (count(m.vertices)) } td.n { (count(m.triangles)) }
-                            td.n { (plain(m.z_min, 3)) } td.n { (plain(m.z_max, 3)) } td.n { (number(m.plan_area, 2)) } td.n { (number(m.surface_area, 2)) }
+                            td.n { (plain(m.z_min, 3)) } td.n { (plain(m.z_max, 3)) } td.n { (number(m.plan_area, 2)) } td.n {
+                                (number(m.surface_area, 2)) }
                         }
                     }
                 }
@@ -143,11 +147,13 @@ fn method(report: &BetweenReport) -> Markup {
                 strong { "Volumes. " }
                 @match &report.volumes.reference {
                     BetweenReference::Terrain { path } => {
-                        "Prisms over all pairs of triangles of the design and of the existing surface in " (name(path)) " that lie over each other: \
+                        "Prisms over all pairs of triangles of the design and of the existing surface in "
+                            (name(path)) " that lie over each other: \
                          exact for the two surfaces, no cells and no sections."
                     }
                     BetweenReference::Plane { elevation } => {
-                        "Prisms between every triangle of the surface and the level plane at elevation " (plain(*elevation, 3)) ": exact for its triangles."
+                        "Prisms between every triangle of the surface and the level plane at elevation "
+                            (plain(*elevation, 3)) ": exact for its triangles."
                     }
                 }
             }

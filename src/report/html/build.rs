@@ -80,7 +80,8 @@ fn summary(report: &Report, units: Units<'_>) -> Markup {
             }
             @if let Some(soil) = v.bulking {
                 p {
-                    "With swell " (volumes::percent(soil.swell)) " and shrink " (volumes::percent(soil.shrink)) ", measured in the ground: "
+                    "With swell " (volumes::percent(soil.swell)) " and shrink "
+                        (volumes::percent(soil.shrink)) ", measured in the ground: "
                     (volumes::net(soil.net_bank, soil.balance, units)) "."
                 }
             }
@@ -125,9 +126,11 @@ fn tiles(report: &Report, units: Units<'_>) -> Markup {
                 (tile("Highest fill", "fill", with(number(d.fill_max, 2), ""), at(d.fill_max_at.as_ref())))
             }
             (tile("Works in plan", "", with(number(report.surface.plan_area, 0), "²"), None))
-            (tile("Length of the line", "", with(number(report.line.length, 2), ""), report.line.width.map(|w| html! { (plain(w, 2)) " " (unit) " wide" })))
+            (tile("Length of the line", "", with(number(report.line.length, 2), ""), report.line.width.map(|w| html! {
+                (plain(w, 2)) " " (unit) " wide" })))
             @for (title, slope) in [("Cut slope", report.slopes.cut), ("Fill slope", report.slopes.fill)] {
-                @if let Some(slope) = slope { (tile(title, "", html! { (short(slope)) }, Some(html! { (plain(slope.percent, 1)) " % · " (plain(slope.degrees, 2)) "°" }))) }
+                @if let Some(slope) = slope { (tile(title, "", html! { (short(slope)) }, Some(html! {
+                    (plain(slope.percent, 1)) " % · " (plain(slope.degrees, 2)) "°" }))) }
             }
         }
     }
@@ -147,7 +150,8 @@ fn model(report: &Report, scene: &Scene<'_>, view: &View) -> Markup {
                     button type="button" data-part="above" { "From above" }
                     button type="button" data-part="front" { "From the south" }
                     label { "Heights " select data-part="height" {
-                        option value="1" selected { "×1" } option value="2" { "×2" } option value="5" { "×5" } option value="10" { "×10" }
+                        option value="1" selected { "×1" } option value="2" { "×2" } option value="5" { "×5" }
+                            option value="10" { "×10" }
                     } }
                     fieldset {
                         legend { "Show" }
@@ -210,7 +214,8 @@ fn slopes(report: &Report) -> Markup {
             table {
                 caption { "The side slopes in four forms" }
                 thead { tr {
-                    th scope="col" { "Slope" } th scope="col" { "Vertical : horizontal · horizontal : vertical · percent · angle" }
+                    th scope="col" { "Slope" }
+                        th scope="col" { "Vertical : horizontal · horizontal : vertical · percent · angle" }
                     @if sections.is_some() { th scope="col" { "In a section perpendicular to the line" } }
                 } }
                 tbody {
@@ -220,8 +225,8 @@ fn slopes(report: &Report) -> Markup {
                     ] {
                         @if let Some(slope) = slope {
                             tr {
-                                th.(class) scope="row" { (title) } td { (forms(slope)) }
-                                @if sections.is_some() { td { (seen(range)) } }
+                                th.p.(class) scope="row" { (title) } td.w { (forms(slope)) }
+                                @if sections.is_some() { td.p { (seen(range)) } }
                             }
                         }
                     }
@@ -244,7 +249,8 @@ fn depths(report: &Report, units: Units<'_>) -> Option<Markup> {
         html! {
             @if let Some(p) = place {
                 (point(p.x, p.y, p.z))
-                @if let (Some(chain), Some(station)) = (&p.chain, p.station) { "; station " (plain(station, 3)) " of " (name(chain)) }
+                @if let (Some(chain), Some(station)) = (&p.chain, p.station) { "; station " (plain(station, 3)) " of "
+                    (name(chain)) }
             }
         }
     };
@@ -376,7 +382,8 @@ fn buried(report: &Report) -> Markup {
                 tbody {
                     @for b in rows.iter().take(MOST_BURIED) {
                         tr {
-                            th scope="row" { (name(&b.chain)) } td.n { (plain(b.from, 3)) } td.n { (plain(b.to, 3)) } td.n { (plain(b.depth, 3)) }
+                            th scope="row" { (name(&b.chain)) } td.n { (plain(b.from, 3)) } td.n { (plain(b.to, 3)) } td.n {
+                                (plain(b.depth, 3)) }
                             td { (name(&b.by_chain)) } td.n { (plain(b.by_station, 3)) }
                             td { (b.free_slope.and_then(crate::model::Slope::from_ratio).map_or_else(|| "no slope".to_owned(), crate::model::Slope::not_flatter)) }
                         }
@@ -384,6 +391,7 @@ fn buried(report: &Report) -> Markup {
                 }
             }
         }
-        @if rows.len() > MOST_BURIED { p.small { "The first " (MOST_BURIED) " of " (rows.len()) "; the report as JSON has all." } }
+        @if rows.len() > MOST_BURIED { p.small { "The first " (MOST_BURIED) " of "
+            (rows.len()) "; the report as JSON has all." } }
     }
 }

@@ -26,6 +26,12 @@ pub(super) fn indices(triangles: &[[u32; 3]]) -> String {
     STANDARD.encode(bytes)
 }
 
+/// For tests: the number of four bytes.
+#[cfg(test)]
+pub(super) fn double(bytes: [u8; 4]) -> f64 {
+    f64::from(f32::from_le_bytes(bytes))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -41,7 +47,7 @@ mod tests {
     fn millions_of_metres_lose_nothing_that_shows() {
         let origin = DVec3::new(500_000.0, 5_400_000.0, 400.0);
         let bytes = STANDARD.decode(points(&[origin + DVec3::new(0.125, -250.5, 31.75)], origin)).unwrap();
-        let read: Vec<f64> = bytes.chunks_exact(4).map(|b| f64::from(f32::from_le_bytes(b.try_into().unwrap()))).collect();
+        let read: Vec<f64> = bytes.chunks_exact(4).map(|b| double(b.try_into().unwrap())).collect();
         assert_eq!(read, [0.125, -250.5, 31.75]);
     }
 }

@@ -77,16 +77,19 @@ fn findings(findings: &[FindingFigures]) -> Markup {
             div.scroll tabindex="0" role="region" aria-label="Findings" {
                 table {
                     caption { "What was found, errors first. A surface with errors is not sound; remarks do not count" }
-                    thead { tr { th scope="col" { "" } th.n scope="col" { "Number" } th scope="col" { "What" } th scope="col" { "Places" } } }
+                    thead { tr { th scope="col" { "" } th.n scope="col" { "Number" } th scope="col" { "What" }
+                        th scope="col" { "Places" } } }
                     tbody {
                         @for f in findings {
                             tr {
-                                th scope="row" { @if f.severity == "error" { strong.bad { "error" } } @else { span.soft { (f.severity) } } }
+                                th scope="row" { @if f.severity == "error" { strong.bad { "error" } } @else { span.soft {
+                                    (f.severity) } } }
                                 td.n { @if f.at_least { "at least " } (count(f.count)) }
-                                td { (f.message) " " code { (f.code) } }
-                                td.small {
+                                td.w { (f.message) " " code { (f.code) } }
+                                td.w.small {
                                     @for p in &f.places { div { (place(p).trim_start()) } }
-                                    @if f.count > f.places.len() && !f.places.is_empty() { div.soft { "and " (f.count - f.places.len()) " more" } }
+                                    @if f.count > f.places.len() && !f.places.is_empty() { div.soft { "and "
+                                        (f.count - f.places.len()) " more" } }
                                 }
                             }
                         }
@@ -156,11 +159,13 @@ fn slopes(s: &SlopesFigures) -> Markup {
             div.tall tabindex="0" role="region" aria-label="Distribution of slopes" {
                 table {
                     caption { "Share of the area by angle" }
-                    thead { tr { th.n scope="col" { "Angle" } th.n scope="col" { "Share" } th.n scope="col" { "Triangles" } th scope="col" { "" } } }
+                    thead { tr { th.n scope="col" { "Angle" } th.n scope="col" { "Share" } th.n scope="col" { "Triangles" }
+                        th scope="col" { "" } } }
                     tbody {
                         @for bin in &s.histogram {
                             tr {
-                                th.n scope="row" { (bin.from) "° to " (bin.to) "°" } td.n { (percent(bin.share.share)) } td.n { (count(bin.share.triangles)) }
+                                th.n scope="row" { (bin.from) "° to " (bin.to) "°" } td.n { (percent(bin.share.share)) } td.n {
+                                    (count(bin.share.triangles)) }
                                 td { span.bin style={ "width:" (format!("{:.2}", BAR * bin.share.share / most)) "rem" } {} }
                             }
                         }
@@ -177,7 +182,8 @@ fn parts(parts: &[PartFigures], units: Units<'_>) -> Markup {
             table {
                 caption { "The groups of the file" }
                 thead { tr {
-                    th scope="col" { "Name" } th.n scope="col" { "Triangles" } th.n scope="col" { "Area in plan" } th.n scope="col" { "Area in space" }
+                    th scope="col" { "Name" } th.n scope="col" { "Triangles" } th.n scope="col" { "Area in plan" }
+                        th.n scope="col" { "Area in space" }
                     th.n scope="col" { "Flattest" } th.n scope="col" { "Mean" } th.n scope="col" { "Steepest" }
                 } }
                 tbody {
@@ -193,7 +199,8 @@ fn parts(parts: &[PartFigures], units: Units<'_>) -> Markup {
                 }
             }
         }
-        @if parts.len() > MOST_PARTS { p.small { "The first " (MOST_PARTS) " of " (parts.len()) "; the report as JSON has all." } }
+        @if parts.len() > MOST_PARTS { p.small { "The first " (MOST_PARTS) " of "
+            (parts.len()) "; the report as JSON has all." } }
     }
 }
 

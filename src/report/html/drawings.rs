@@ -93,7 +93,8 @@ pub(super) fn sections(report: &Report, scene: &Scene<'_>, asked: &[f64]) -> Opt
             .map(|(station, svg)| figure(&format!("Cross-section of {name} at station {station:.2}"), svg))
             .collect();
         if count > MOST_ASKED {
-            figures.push(html! { p.small { "The first " (MOST_ASKED) " of " (count) " cross-sections; `--plot sections.svg` draws all." } });
+            figures.push(html! { p.small { "The first " (MOST_ASKED) " of "
+                (count) " cross-sections; `--plot sections.svg` draws all." } });
         }
         figures
     })
@@ -134,7 +135,7 @@ mod tests {
         assert_eq!(chosen(&[0.0, 20.0, 40.0, 50.0], 50.0), [20.0, 40.0]);
         // Without stations: every 50 of a line of 430.
         assert_eq!(chosen(&[0.0, 430.0], 430.0), [50.0, 100.0, 150.0, 200.0, 250.0, 300.0, 350.0, 400.0]);
-        assert_eq!(chosen(&[], 0.0), []);
+        assert!(chosen(&[], 0.0).is_empty());
         for length in [f64::NAN, f64::INFINITY, 1e-300, 1e300] {
             assert!(chosen(&[], length).len() <= MOST_SECTIONS);
         }

@@ -13,6 +13,8 @@ mod parts;
 mod proof;
 mod shell;
 mod soup;
+#[cfg(test)]
+mod tests;
 mod view;
 mod volumes;
 

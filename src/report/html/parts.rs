@@ -114,7 +114,8 @@ pub(super) fn point(x: f64, y: f64, z: Option<f64>) -> String {
 /// Heading of a table of depths.
 pub(super) fn depths_head() -> Markup {
     html! {
-        thead { tr { th scope="col" { "Depth" } th.n scope="col" { "Greatest" } th.n scope="col" { "Mean" } th scope="col" { "Place of the greatest" } } }
+        thead { tr { th scope="col" { "Depth" } th.n scope="col" { "Greatest" } th.n scope="col" { "Mean" }
+            th scope="col" { "Place of the greatest" } } }
     }
 }
 
@@ -123,7 +124,7 @@ pub(super) fn depths_row(title: &str, class: &str, most: f64, mean: Option<f64>,
     html! {
         tr {
             th.(class) scope="row" { (title) } td.n { (units.length(most)) }
-            td.n { @if let Some(mean) = mean { (units.length(mean)) } } td { (place) }
+            td.n { @if let Some(mean) = mean { (units.length(mean)) } } td.w { (place) }
         }
     }
 }
@@ -135,17 +136,18 @@ pub(super) fn inputs(inputs: &[Input]) -> Markup {
             table {
                 caption { "The files read, with the SHA-256 of their bytes: the same digits, the same file" }
                 thead {
-                    tr { th scope="col" { "Used for" } th scope="col" { "File" } th scope="col" { "Format" } th.n scope="col" { "Bytes" } th scope="col" { "Coordinate system" } th scope="col" { "SHA-256" } }
+                    tr { th scope="col" { "Used for" } th scope="col" { "File" } th scope="col" { "Format" }
+                        th.n scope="col" { "Bytes" } th scope="col" { "Coordinate system" } th scope="col" { "SHA-256" } }
                 }
                 tbody {
                     @for input in inputs {
                         tr {
                             th scope="row" { (name(&input.role)) }
-                            td { @if input.path == "-" { "standard input" } @else { (name(&input.path)) } }
+                            td.p { @if input.path == "-" { "standard input" } @else { (name(&input.path)) } }
                             td { (name(&input.format)) }
                             td.n { (input.bytes) }
                             td { @if let Some(crs) = &input.crs { (name(crs)) } @else { span.soft { "not given" } } }
-                            td { code { (name(&input.sha256)) } }
+                            td.w { code { (name(&input.sha256)) } }
                         }
                     }
                 }

@@ -25,7 +25,8 @@ fn height_kept(report: &Report) -> bool {
 /// What the units are.
 pub(super) fn units_of(units: &crate::report::Units) -> Markup {
     html! {
-        "Coordinates are taken as given; lengths, heights and stations in " (units.length) ", areas in " (units.area) ", volumes in " (units.volume)
+        "Coordinates are taken as given; lengths, heights and stations in " (units.length) ", areas in "
+            (units.area) ", volumes in " (units.volume)
         @if let Some(metres) = in_metres(units) { "; " (metres) }
         ". They are grid figures: no scale factor has been applied."
     }
@@ -107,13 +108,14 @@ pub(super) fn certificate(report: &Report, units: Units<'_>) -> Markup {
         div.scroll tabindex="0" role="region" aria-label="Certificate" {
             table {
                 caption { "What was checked" }
-                thead { tr { th scope="col" { "Check" } th.n scope="col" { "Measured" } th.n scope="col" { "Must be" } th scope="col" { "" } th scope="col" { "What it means" } } }
+                thead { tr { th scope="col" { "Check" } th.n scope="col" { "Measured" } th.n scope="col" { "Must be" }
+                    th scope="col" { "" } th scope="col" { "What it means" } } }
                 tbody {
                     @for check in checks(report, units.0) {
                         tr {
-                            th scope="row" { (check.name) } td.n { (check.measured) } td.n.soft { (check.wanted) }
+                            th.p scope="row" { (check.name) } td.n { (check.measured) } td.n.soft { (check.wanted) }
                             td { @if check.good { span.good { "passed" } } @else { strong.bad { "FAILED" } } }
-                            td { (check.meaning) }
+                            td.w { (check.meaning) }
                         }
                     }
                 }
@@ -142,7 +144,9 @@ pub(super) fn method(report: &Report) -> Markup {
             @if let Some(v) = &report.volumes {
                 li {
                     strong { "Volumes. " }
-                    "Computed by " (v.method) ", " (v.method_text) ". Simplification of the line and the chords of cones change each volume by " (plain(v.error_bound, 2)) " " (unit) "³ at most."
+                    "Computed by " (v.method) ", "
+                        (v.method_text) ". Simplification of the line and the chords of cones change each volume by "
+                        (plain(v.error_bound, 2)) " " (unit) "³ at most."
                 }
                 li {
                     strong { "Sign rule. " }

@@ -33,7 +33,8 @@ pub(super) fn volumes(report: &Report, v: &Volumes, units: Units<'_>) -> Markup 
         (None, None) => html! { "the existing ground" },
     };
     html! {
-        p { "Measured against " (against) ". Cut is what lies above the design and is dug away, fill what is missing below it and is brought." }
+        p { "Measured against "
+            (against) ". Cut is what lies above the design and is dug away, fill what is missing below it and is brought." }
         div.beside {
             div {
                 h3 { "As measured" }
@@ -63,7 +64,8 @@ fn cut_fill_head(units: Units<'_>) -> Markup {
     let unit = units.0;
     html! {
         thead { tr {
-            th scope="col" { span.soft { (unit) "³" } } th.n.cut scope="col" { "Cut" } th.n.fill scope="col" { "Fill" } th.n scope="col" { "Net" }
+            th scope="col" { span.soft { (unit) "³" } } th.n.cut scope="col" { "Cut" } th.n.fill scope="col" { "Fill" }
+                th.n scope="col" { "Net" }
         } }
     }
 }
@@ -73,7 +75,8 @@ fn measured(report: &Report, v: &Volumes, units: Units<'_>) -> Markup {
     html! {
         div.scroll {
             table {
-                caption { "Volumes in place, without change of the soil. Each is right within " (units.volume(v.error_bound)) " for the line given" }
+                caption { "Volumes in place, without change of the soil. Each is right within "
+                    (units.volume(v.error_bound)) " for the line given" }
                 (cut_fill_head(units))
                 tbody {
                     @if let Some(parts) = v.parts {
@@ -86,7 +89,8 @@ fn measured(report: &Report, v: &Volumes, units: Units<'_>) -> Markup {
         }
         p.small {
             "Net " (units.volume(v.net)) ": " strong { (v.balance.word()) } "."
-            @if let Some(pads) = pads { " Of this, platforms without a station: cut " (units.volume(pads.cut)) ", fill " (units.volume(pads.fill)) "." }
+            @if let Some(pads) = pads { " Of this, platforms without a station: cut " (units.volume(pads.cut)) ", fill "
+                (units.volume(pads.fill)) "." }
         }
     }
 }
@@ -97,7 +101,8 @@ fn bulking(soil: BulkingFigures, units: Units<'_>) -> Markup {
             table {
                 caption { "The same soil in the ground (bank), dug and on the lorry (loose), and built in (compacted). What was measured is bold" }
                 thead { tr {
-                    th scope="col" { span.soft { (units.0) "³" } } th.n scope="col" { "Bank" } th.n scope="col" { "Loose" } th.n scope="col" { "Compacted" }
+                    th scope="col" { span.soft { (units.0) "³" } } th.n scope="col" { "Bank" } th.n scope="col" { "Loose" }
+                        th.n scope="col" { "Compacted" }
                 } }
                 tbody {
                     tr {
@@ -108,7 +113,8 @@ fn bulking(soil: BulkingFigures, units: Units<'_>) -> Markup {
                         th.fill scope="row" { "Fill" } td.n { (number(soil.fill_bank, 2)) } td.n { (number(soil.fill_loose, 2)) }
                         td.n { strong { (number(soil.fill_compacted, 2)) } }
                     }
-                    tr.sum { th scope="row" { "Net" } td.n { (number(soil.net_bank, 2)) } td colspan="2" { (soil.balance.word()) ", in bank" } }
+                    tr.sum { th scope="row" { "Net" } td.n { (number(soil.net_bank, 2)) } td colspan="2" {
+                        (soil.balance.word()) ", in bank" } }
                 }
             }
         }
@@ -133,7 +139,8 @@ fn compared(v: &Volumes, pads: Option<PadRow>, units: Units<'_>) -> Markup {
                     th.n.fill scope="col" { "Fill" } th.n scope="col" { "off by" }
                 } }
                 tbody {
-                    tr { th.strong scope="row" { "Exact" } td.n { (number(exact.cut, 2)) } td {} td.n { (number(exact.fill, 2)) } td {} }
+                    tr { th.strong scope="row" { "Exact" } td.n { (number(exact.cut, 2)) } td {} td.n {
+                        (number(exact.fill, 2)) } td {} }
                     @for (title, figures) in [("Average end area", v.end_area), ("Prismoidal", v.prismoidal)] {
                         @if let Some(f) = figures {
                             tr {
@@ -158,7 +165,8 @@ pub(super) fn stations(report: &Report, rows: &[StationRow], units: Units<'_>) -
     let first = |value: f64| html! { td.n.lead { (plain(value, 2)) } };
     html! {
         p {
-            "Every cubic " (if units.0 == "m" { "metre" } else { "foot" }) " belongs to the point of the line it is built from, so the rows add up to the total, on bends too. The running \
+            "Every cubic "
+                (if units.0 == "m" { "metre" } else { "foot" }) " belongs to the point of the line it is built from, so the rows add up to the total, on bends too. The running \
              net is cut − fill from the beginning of the line."
         }
         div.tall tabindex="0" role="region" aria-label="Volumes by station" {
@@ -179,7 +187,8 @@ pub(super) fn stations(report: &Report, rows: &[StationRow], units: Units<'_>) -
                         th.n scope="col" { "from" } th.n scope="col" { "to" }
                         th.n.lead.cut scope="col" { "cut" } th.n.fill scope="col" { "fill" }
                         th.n.lead.cut scope="col" { "cut" } th.n.fill scope="col" { "fill" }
-                        @if compacted { th.n.lead scope="col" { "bank" } th.n scope="col" { "compacted" } } @else { th.n.lead scope="col" { "cut − fill" } }
+                        @if compacted { th.n.lead scope="col" { "bank" } th.n scope="col" { "compacted" } } @else {
+                            th.n.lead scope="col" { "cut − fill" } }
                         @if sections {
                             @for _ in 0..2 { th.n.lead.cut scope="col" { "cut" } th.n.fill scope="col" { "fill" } }
                         }
@@ -192,10 +201,12 @@ pub(super) fn stations(report: &Report, rows: &[StationRow], units: Units<'_>) -
                         }
                         tr {
                             th.n scope="row" { (plain(row.from, 2)) } (cell(row.to))
-                            (first(row.cut)) (cell(row.fill)) (first(row.cut_area)) (cell(row.fill_area)) (first(row.net_cumulative))
+                            (first(row.cut)) (cell(row.fill)) (first(row.cut_area)) (cell(row.fill_area))
+                                (first(row.net_cumulative))
                             @if let Some(net) = row.net_cumulative_compacted { (cell(net)) }
                             @if let Some(s) = row.sections {
-                                (first(s.average_end_area.cut)) (cell(s.average_end_area.fill)) (first(s.prismoidal.cut)) (cell(s.prismoidal.fill))
+                                (first(s.average_end_area.cut)) (cell(s.average_end_area.fill)) (first(s.prismoidal.cut))
+                                    (cell(s.prismoidal.fill))
                             }
                         }
                     }
@@ -212,7 +223,8 @@ pub(super) fn stations(report: &Report, rows: &[StationRow], units: Units<'_>) -
                         tr {
                             th scope="row" colspan="2" { "total" }
                             (first(v.cut)) (cell(v.fill))
-                            @if let Some(areas) = report.areas { (first(areas.cut)) (cell(areas.fill)) } @else { td.lead colspan="2" {} }
+                            @if let Some(areas) = report.areas { (first(areas.cut)) (cell(areas.fill)) } @else {
+                                td.lead colspan="2" {} }
                             td.lead colspan=(if compacted { 2 } else { 1 }) {}
                             @if sections {
                                 @for f in [v.end_area, v.prismoidal] {
@@ -225,7 +237,8 @@ pub(super) fn stations(report: &Report, rows: &[StationRow], units: Units<'_>) -
             }
         }
         @if rows.len() > MOST_ROWS {
-            p.small { "The first " (MOST_ROWS) " of " (rows.len()) " rows; the total is that of all. The report as JSON has all of them." }
+            p.small { "The first " (MOST_ROWS) " of "
+                (rows.len()) " rows; the total is that of all. The report as JSON has all of them." }
         }
     }
 }
