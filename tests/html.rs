@@ -3,6 +3,8 @@
 //! The browser is `chromium`, `chromium-browser` or `google-chrome` of the path, or what the variable `CHROMIUM` names. Without one
 //! the tests that need it say so and pass.
 
+#![allow(clippy::print_stderr, reason = "tells what was skipped")]
+
 mod browser;
 
 use browser::{Browser, Picture};

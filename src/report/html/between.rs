@@ -54,7 +54,7 @@ fn summary(report: &BetweenReport, units: Units<'_>) -> Markup {
     let rest = if v.net.abs() < ROUNDED { 0.0 } else { v.net };
     let tile = |title: &str, class: &str, value: f64, power: &str, note: Option<&str>| {
         html! { div { dt { (title) } dd class=(class) { (number(value, 2)) " " span.u { (unit) (power) } }
-            @if let Some(note) = note { dd.note { (note) } } } }
+        @if let Some(note) = note { dd.note { (note) } } } }
     };
     html! {
         p.verdict {

@@ -94,7 +94,7 @@ pub(super) fn sections(report: &Report, scene: &Scene<'_>, asked: &[f64]) -> Opt
             .collect();
         if count > MOST_ASKED {
             figures.push(html! { p.small { "The first " (MOST_ASKED) " of "
-                (count) " cross-sections; `--plot sections.svg` draws all." } });
+            (count) " cross-sections; `--plot sections.svg` draws all." } });
         }
         figures
     })

@@ -9,8 +9,9 @@ use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 use serde_json::{Map, Value, json};
 
-/// Triangles of the works, and of the ground around them, that a page carries; more are thinned. Some 30 bytes each.
-pub(super) const MOST_TRIANGLES: usize = 300_000;
+/// Triangles of the works and of the ground around them that a page carries; more are thinned. Some 30 bytes each, so that a page
+/// can still be sent by mail.
+pub(super) const MOST_TRIANGLES: [usize; 2] = [200_000, 100_000];
 
 /// Segments of line work that a page carries; whole kinds are left out beyond. Some 32 bytes each.
 const MOST_SEGMENTS: usize = 150_000;
@@ -41,8 +42,8 @@ pub(super) struct View {
     pub(super) notes: Vec<String>,
 }
 
-/// The view of a scene; none if there is nothing to see. `most` bounds the triangles of works and ground each.
-pub(super) fn view(scene: &Scene<'_>, deepest: [f64; 2], most: usize) -> Option<View> {
+/// The view of a scene; none if there is nothing to see. `most` bounds the triangles of works and ground.
+pub(super) fn view(scene: &Scene<'_>, deepest: [f64; 2], [most_works, most_ground]: [usize; 2]) -> Option<View> {
     let design = scene.design;
     let (lo, hi) = plan_box(&design.vertices)?;
     let lowest = design.vertices.iter().map(|v| v.z).fold(f64::INFINITY, f64::min);
@@ -50,7 +51,7 @@ pub(super) fn view(scene: &Scene<'_>, deepest: [f64; 2], most: usize) -> Option<
     let origin = (0.5 * (lo + hi)).extend(lowest).round();
     let unit = scene.unit.label();
     let mut notes = Vec::new();
-    let mut thin = |soup: &mut Soup, what: &str| {
+    let mut thin = |soup: &mut Soup, what: &str, most: usize| {
         let count = soup.triangles.len();
         if let Some(cell) = soup.thin(most) {
             notes.push(format!(
@@ -68,22 +69,22 @@ pub(super) fn view(scene: &Scene<'_>, deepest: [f64; 2], most: usize) -> Option<
     match &scene.ground {
         Some(ground) => {
             let (mut works, missing) = pieces(design, ground, [lo, hi]);
-            thin(&mut works, "mesh of the works");
+            thin(&mut works, "mesh of the works", most_works);
             put("works", &works);
             if missing {
                 let mut bare =
                     Soup { vertices: design.vertices.clone(), values: Vec::new(), triangles: design.triangles.clone() };
-                thin(&mut bare, "design");
+                thin(&mut bare, "design", most_works);
                 put("bare", &bare);
             }
             let margin = DVec2::splat(AROUND * (hi - lo).max_element());
             let mut around = Soup::clipped(&ground.terrain.vertices, &ground.terrain.triangles, [lo - margin, hi + margin]);
-            thin(&mut around, "existing ground");
+            thin(&mut around, "existing ground", most_ground);
             put("ground", &around);
         }
         None => {
             let mut works = by_part(design);
-            thin(&mut works, "mesh of the works");
+            thin(&mut works, "mesh of the works", most_works);
             put("works", &works);
         }
     }
