@@ -1,8 +1,10 @@
 //! The main job: a line to a surface, its files and its report.
 
+use super::error::NoStation;
 use super::watch::{CHECKING, Observer, PREPARING, READING, READING_GROUND, Stopwatch, WRITING};
 use super::{BuriedError, Error, Given, GroundInput, LineInput, Wishes, check_steepness, figures, on_ground, read_line};
 use crate::ground::{Pieces, Stations, Tallied, axes};
+use crate::kernel::frame::Frame;
 use crate::model::{Bulking, Line, LineFeature, Note, Sheet, Terrain, Tin};
 use crate::plot::{self, Drawing, OnGround, Scene};
 use crate::read::Source;
@@ -81,6 +83,7 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     let mut outputs = Outputs::open(&targets, &inputs)?;
 
     let Given { line, source, unit } = read_line(&job.input, &watch)?;
+    check_sections(job, &line)?;
     let Product { design, finished, lines, survey, mut report } = match &job.ground {
         Some(ground) => on_ground::build(job, ground, &line, &source, unit, &watch)?,
         None => alone(job, &line, &source, &watch)?,
@@ -129,6 +132,13 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     stamp(&mut report, &watch);
     let written = targets.into_iter().filter(|target| !target.is_stream()).collect();
     Ok(Built { report, written })
+}
+
+/// Refuses cross-sections where there is no line.
+fn check_sections(job: &BuildJob, line: &Line) -> Result<(), NoStation> {
+    let longest = axes(line, &Frame::WORLD).iter().map(|axis| axis.length).fold(0.0, f64::max);
+    let beside = job.sections.iter().copied().find(|station| !(0.0..=longest).contains(station));
+    beside.map_or(Ok(()), |station| Err(NoStation { station, longest }))
 }
 
 /// The note about elevations that were asked for and have no level curve.

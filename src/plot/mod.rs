@@ -28,3 +28,8 @@ pub use profile::profile;
 pub use scene::{OnGround, Scene};
 pub use sections::sections;
 pub use style::{LEAST_WIDTH, MOST_WIDTH, Style, css};
+
+#[cfg(test)]
+mod testing;
+#[cfg(test)]
+mod tests;

@@ -5,6 +5,9 @@ mod furniture;
 mod linework;
 mod map;
 
+#[cfg(test)]
+pub(super) use depths::band_outlines;
+
 use super::course::courses;
 use super::labels::{Labels, fitted};
 use super::legend::{Block, Sample, flow};

@@ -8,6 +8,7 @@ mod golden;
 mod ground;
 mod help;
 mod messages;
+mod plots;
 mod sample;
 mod streams;
 #[cfg(unix)]

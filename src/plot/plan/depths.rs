@@ -65,9 +65,9 @@ impl Depths {
     /// Draws the bands, the shallow ones under the deep ones, so that no paper shows between them.
     pub(super) fn draw(&self, svg: &mut Svg, map: &Map, scene: &Scene<'_>, most: usize) {
         let Some(ground) = &scene.ground else { return };
-        let all = outlines(ground.pieces.iter(), map, vec![0.0], |_, _| 1.0);
-        let cut = outlines(ground.pieces.iter(), map, self.levels(), |part, height| -worked(part, height));
-        let fill = outlines(ground.pieces.iter(), map, self.levels(), worked);
+        let all = outlines(ground.pieces.iter(), map, STEPS, vec![0.0], |_, _| 1.0);
+        let cut = outlines(ground.pieces.iter(), map, STEPS, self.levels(), |part, height| -worked(part, height));
+        let fill = outlines(ground.pieces.iter(), map, STEPS, self.levels(), worked);
         let classes = |letter| (0..self.count).map(move |i| self.class(letter, i));
         let named = std::iter::once("nought".to_owned()).chain(classes('c')).chain(classes('f'));
         draw(svg, named.zip(all.into_iter().chain(cut).chain(fill)).collect(), most);
@@ -105,10 +105,11 @@ fn worked(part: Part, height: f64) -> f64 {
 fn outlines<'a>(
     pieces: impl Iterator<Item = Piece<'a>>,
     map: &Map,
+    steps: f64,
     levels: Vec<f64>,
     value: impl Fn(Part, f64) -> f64,
 ) -> Vec<Vec<Stroke>> {
-    let mut bands = Bands::new(levels, STEPS);
+    let mut bands = Bands::new(levels, steps);
     let mut corners = Vec::new();
     for piece in pieces.filter(|piece| piece.corners.len() > 2 && piece.part != Part::Ground) {
         corners.clear();
@@ -141,4 +142,18 @@ pub(super) fn draw_parts(svg: &mut Svg, map: &Map, scene: &Scene<'_>, most: usiz
         (class.to_owned(), bands.outlines().concat())
     });
     draw(svg, named.into(), most);
+}
+
+/// For tests: scale of the map, outlines of all works, and of the bands of cut and fill, as they are before simplification.
+#[cfg(test)]
+pub(in crate::plot) fn band_outlines(scene: &Scene<'_>) -> (f64, Vec<Stroke>, Vec<Vec<Stroke>>, Vec<Vec<Stroke>>) {
+    /// Steps of a lattice that does not show in areas.
+    const FINER: f64 = 1e5;
+    let map = Map::of(scene, 1000.0).unwrap();
+    let depths = Depths::of(scene).unwrap();
+    let pieces = || scene.ground.as_ref().unwrap().pieces.iter();
+    let all = outlines(pieces(), &map, FINER, vec![0.0], |_, _| 1.0).remove(0);
+    let cut = outlines(pieces(), &map, FINER, depths.levels(), |part, height| -worked(part, height));
+    let fill = outlines(pieces(), &map, FINER, depths.levels(), worked);
+    (map.scale, all, cut, fill)
 }
