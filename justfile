@@ -34,6 +34,7 @@ bench:
     cargo bench --bench engine
     cargo bench --bench overlay
     cargo bench --bench reading
+    cargo bench --bench writing
     cargo bench --bench ground
 
 # The pictures of the README, from fixtures

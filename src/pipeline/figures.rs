@@ -70,10 +70,12 @@ pub(super) fn report(line: &Line, source: &Source, design: &Design, surface: &Su
 }
 
 fn warnings(notes: &[Note]) -> Vec<Warning> {
-    notes
-        .iter()
-        .map(|note| Warning { code: note.code.to_owned(), message: note.message.clone(), details: BTreeMap::new() })
-        .collect()
+    notes.iter().map(warning).collect()
+}
+
+/// A note as the report tells it.
+pub(super) fn warning(note: &Note) -> Warning {
+    Warning { code: note.code.to_owned(), message: note.message.clone(), details: BTreeMap::new() }
 }
 
 /// Code of the note about buried stretches.

@@ -1,13 +1,13 @@
 //! Cut and fill between two surfaces that are given.
 
 use super::watch::{CHECKING, Observer, Stopwatch, WRITING};
-use super::{Error, figures, read_ground};
+use super::{Error, figures, read_ground, units};
 use crate::kernel::sum::Sum;
 use crate::mesh::inside::inside;
-use crate::model::{Chain, Defect, Defects, Note, Role, Terrain};
+use crate::model::{Chain, Defect, Defects, LengthUnit, Note, Role, Terrain};
 use crate::overlay::{self, Between, OverlayError, Surface};
 use crate::read::terrain::TerrainOptions;
-use crate::read::{self, ColumnOrder, ReadOptions, Source};
+use crate::read::{self, ColumnOrder, Pick, ReadError, ReadOptions, Source};
 use crate::report::between::{BetweenDepths, BetweenReference, BetweenReport, BetweenTiming, BetweenVolumes, MeshFigures};
 use crate::report::{Balance, Detail, Input, METHOD, METHOD_TEXT, ReportFormat, SCHEMA, SIGN_RULE, Tool, Warning};
 use crate::surface::Watch;
@@ -31,6 +31,10 @@ pub struct VolumeJob {
     pub against: Against,
     /// Columns of text files of points without a header.
     pub csv_order: Option<ColumnOrder>,
+    /// What is meant of the design, and of the existing surface, where a file holds several.
+    pub picks: [Pick; 2],
+    /// Unit of the run, if asked for; `None`: that of the design, else of the existing surface, else metres.
+    pub unit: Option<LengthUnit>,
     /// A file of rings; only what lies inside counts.
     pub within: Option<PathBuf>,
     /// Where reports go.
@@ -124,13 +128,23 @@ pub fn volume(job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Erro
     let inputs: Vec<PathBuf> = design.into_iter().chain([existing]).chain(&job.within).cloned().collect();
     let mut outputs = Outputs::open(&targets, &inputs)?;
 
-    let options = TerrainOptions { csv_order: job.csv_order.clone(), ..TerrainOptions::default() };
-    let read = |path: &Path, unit, surface: Surface| read_ground(path, &options, unit, &Named { watch: &watch, surface });
-    let design = design.map(|path| read(path, None, Surface::Design)).transpose()?;
-    let declared = design.as_ref().and_then(|(_, source)| source.unit);
-    let existing = read(existing, declared, Surface::Existing)?;
+    let [of_design, of_existing] = &job.picks;
+    let read = |path: &Path, pick: &Pick, unit, surface: Surface| {
+        let options =
+            TerrainOptions { csv_order: job.csv_order.clone(), pick: pick.clone(), unit: job.unit, ..TerrainOptions::default() };
+        read_ground(path, &options, unit, &Named { watch: &watch, surface })
+    };
+    let design = design.map(|path| read(path, of_design, job.unit, Surface::Design)).transpose()?;
+    let declared = job.unit.or(design.as_ref().and_then(|(_, source)| source.unit));
+    let existing = read(existing, of_existing, declared, Surface::Existing).map_err(|error| match error {
+        // With a design beside it, the existing surface has an option of its own.
+        Error::Read(ReadError::Content { what, at, figures, help }) if design.is_some() => {
+            ReadError::Content { what, at, figures, help: help.replace("--surface", "--existing-surface") }.into()
+        }
+        other => other,
+    })?;
     let unit = declared.or(existing.1.unit).unwrap_or_default();
-    let area = job.within.as_ref().map(|path| rings(path, &watch)).transpose()?;
+    let area = job.within.as_ref().map(|path| rings(path, unit, &watch)).transpose()?;
 
     watch.stage_of(VOLUMES);
     let within = area.as_ref().map(|(area, _)| area);
@@ -255,9 +269,12 @@ fn warnings(notes: &[Note], found: &Between) -> Vec<Warning> {
 }
 
 /// The area inside the rings of a file. Elevations do not matter.
-fn rings(path: &Path, watch: &Stopwatch<'_>) -> Result<(Terrain, Source), Error> {
+fn rings(path: &Path, unit: LengthUnit, watch: &Stopwatch<'_>) -> Result<(Terrain, Source), Error> {
     watch.stage_of(CHECKING);
-    let mut raw = read::read_line(path, &ReadOptions::default())?;
+    let mut raw = read::read_line(path, &ReadOptions { unit: Some(unit), ..ReadOptions::default() })?;
+    if let Some(note) = units::convert_line(&mut raw, unit) {
+        watch.note(&note);
+    }
     raw.lines.iter_mut().flat_map(|line| &mut line.vertices).for_each(|v| v.z = Some(0.0));
     let checked = validate::check(&raw, &validate::Options::default())?;
     let label = &raw.source.label;

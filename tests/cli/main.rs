@@ -4,9 +4,11 @@ mod build;
 mod check;
 #[path = "../common/mod.rs"]
 mod common;
+mod formats;
 mod golden;
 mod ground;
 mod help;
+mod landxml;
 mod messages;
 mod plots;
 mod sample;

@@ -26,13 +26,13 @@ const MOST_LEVELS: usize = 24;
 /// [`EncodeError::ReportNotFinite`] as [`crate::report::write_json`]; [`EncodeError::Io`] from the sink.
 pub fn write_html(out: &mut (impl Write + ?Sized), report: &Report, scene: &Scene<'_>, asked: &[f64]) -> Result<(), EncodeError> {
     all_finite(report)?;
-    out.write_all(render(report, scene, asked).as_bytes())?;
+    out.write_all(render(report, scene, asked)?.as_bytes())?;
     Ok(())
 }
 
-pub(super) fn render(report: &Report, scene: &Scene<'_>, asked: &[f64]) -> String {
+pub(super) fn render(report: &Report, scene: &Scene<'_>, asked: &[f64]) -> Result<String, EncodeError> {
     let deepest = report.depths.as_ref().map_or([0.0; 2], |d| [d.cut_max, d.fill_max]);
-    let view = view(scene, deepest, MOST_TRIANGLES);
+    let view = view(scene, deepest, MOST_TRIANGLES)?;
     let units = Units(report.units.length);
     let mut sections = Vec::new();
     let mut add = |id, title, body: Option<Markup>| sections.extend(body.map(|body| Section { id, title, body }));
@@ -65,7 +65,7 @@ pub(super) fn render(report: &Report, scene: &Scene<'_>, asked: &[f64]) -> Strin
         view: view.as_ref(),
         tool: &report.tool,
     };
-    page.render()
+    Ok(page.render())
 }
 
 /// Verdict and key figures.

@@ -69,7 +69,7 @@ impl Small {
 }
 
 fn page(report: &Report) -> String {
-    build::render(report, &Small::new().scene(), &[])
+    build::render(report, &Small::new().scene(), &[]).unwrap()
 }
 
 /// Headings from the first to the last.
@@ -200,13 +200,13 @@ fn comparisons_and_checks_have_pages() {
 /// Numbers of a block of data.
 fn singles(value: &Value) -> Vec<f64> {
     let bytes = STANDARD.decode(value.as_str().unwrap()).unwrap();
-    bytes.chunks_exact(4).map(|b| crate::report::html::bytes::double(b.try_into().unwrap())).collect()
+    bytes.chunks_exact(4).map(|b| crate::write::from_single_precision(b.try_into().unwrap())).collect()
 }
 
 #[test]
 fn the_view_holds_the_mesh_by_part() {
     let small = Small::new();
-    let view = view(&small.scene(), [0.0; 2], [1000, 1000]).unwrap();
+    let view = view(&small.scene(), [0.0; 2], [1000, 1000]).unwrap().unwrap();
     assert!(view.notes.is_empty() && !view.data.contains('<'));
     let data: Value = serde_json::from_str(&view.data).unwrap();
     let origin: Vec<f64> = data["origin"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
@@ -238,7 +238,7 @@ fn the_view_holds_the_mesh_by_part() {
 #[test]
 fn too_much_is_thinned_and_told() {
     let mut small = Small::new();
-    let view = view(&small.scene(), [0.0; 2], [3, 3]).unwrap();
+    let view = view(&small.scene(), [0.0; 2], [3, 3]).unwrap().unwrap();
     assert!(
         view.notes[0].contains("is thinned to cells of") && view.notes[0].contains("it has 4 triangles here"),
         "{:?}",
@@ -249,7 +249,7 @@ fn too_much_is_thinned_and_told() {
     let many =
         |kind, count: usize| LineFeature { kind, points: vec![point; count + 1], elevation: None, chain: None, part: None };
     small.lines.extend([many(CurveKind::LevelCurve, 149_000), many(CurveKind::Valley, 2000), many(CurveKind::Ridge, 10)]);
-    let view = super::view::view(&small.scene(), [0.0; 2], [1000, 1000]).unwrap();
+    let view = super::view::view(&small.scene(), [0.0; 2], [1000, 1000]).unwrap().unwrap();
     assert!(view.notes[0].ends_with("too much of it: valleys. The file of `--lines` has all."), "{:?}", view.notes);
     assert_eq!(serde_json::from_str::<Value>(&view.data).unwrap()["lines"].as_array().unwrap().len(), 3);
 }

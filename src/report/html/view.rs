@@ -5,6 +5,7 @@ use super::soup::Soup;
 use crate::mesh::drape::Drape;
 use crate::model::{CurveKind, LineFeature, Part, Tin};
 use crate::plot::{OnGround, Scene};
+use crate::write::EncodeError;
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 use serde_json::{Map, Value, json};
@@ -43,9 +44,16 @@ pub(super) struct View {
 }
 
 /// The view of a scene; none if there is nothing to see. `most` bounds the triangles of works and ground.
-pub(super) fn view(scene: &Scene<'_>, deepest: [f64; 2], [most_works, most_ground]: [usize; 2]) -> Option<View> {
+///
+/// # Errors
+/// [`EncodeError::BeyondSingle`].
+pub(super) fn view(
+    scene: &Scene<'_>,
+    deepest: [f64; 2],
+    [most_works, most_ground]: [usize; 2],
+) -> Result<Option<View>, EncodeError> {
     let design = scene.design;
-    let (lo, hi) = plan_box(&design.vertices)?;
+    let Some((lo, hi)) = plan_box(&design.vertices) else { return Ok(None) };
     let lowest = design.vertices.iter().map(|v| v.z).fold(f64::INFINITY, f64::min);
     // On whole numbers, so that the readout of the view adds nothing odd.
     let origin = (0.5 * (lo + hi)).extend(lowest).round();
@@ -61,34 +69,35 @@ pub(super) fn view(scene: &Scene<'_>, deepest: [f64; 2], [most_works, most_groun
         }
     };
     let mut data = Map::new();
-    let mut put = |name: &str, soup: &Soup| {
+    let mut put = |name: &str, soup: &Soup| -> Result<(), EncodeError> {
         if !soup.triangles.is_empty() {
-            data.insert(name.to_owned(), mesh(soup, origin));
+            data.insert(name.to_owned(), mesh(soup, origin)?);
         }
+        Ok(())
     };
     match &scene.ground {
         Some(ground) => {
             let (mut works, missing) = pieces(design, ground, [lo, hi]);
             thin(&mut works, "mesh of the works", most_works);
-            put("works", &works);
+            put("works", &works)?;
             if missing {
                 let mut bare =
                     Soup { vertices: design.vertices.clone(), values: Vec::new(), triangles: design.triangles.clone() };
                 thin(&mut bare, "design", most_works);
-                put("bare", &bare);
+                put("bare", &bare)?;
             }
             let margin = DVec2::splat(AROUND * (hi - lo).max_element());
             let mut around = Soup::clipped(&ground.terrain.vertices, &ground.terrain.triangles, [lo - margin, hi + margin]);
             thin(&mut around, "existing ground", most_ground);
-            put("ground", &around);
+            put("ground", &around)?;
         }
         None => {
             let mut works = by_part(design);
             thin(&mut works, "mesh of the works", most_works);
-            put("works", &works);
+            put("works", &works)?;
         }
     }
-    let (lines, dropped) = lines(scene, origin);
+    let (lines, dropped) = lines(scene, origin)?;
     if !dropped.is_empty() {
         notes.push(format!(
             "Line work left out of this view, because there is too much of it: {}. The file of `--lines` has all.",
@@ -101,7 +110,7 @@ pub(super) fn view(scene: &Scene<'_>, deepest: [f64; 2], [most_works, most_groun
     data.insert("onGround".to_owned(), scene.ground.is_some().into());
     data.insert("most".to_owned(), json!(deepest));
     data.insert("lines".to_owned(), lines);
-    Some(View { data: Value::Object(data).to_string().replace('<', "\\u003c"), notes })
+    Ok(Some(View { data: Value::Object(data).to_string().replace('<', "\\u003c"), notes }))
 }
 
 fn plan_box(vertices: &[DVec3]) -> Option<(DVec2, DVec2)> {
@@ -109,14 +118,14 @@ fn plan_box(vertices: &[DVec3]) -> Option<(DVec2, DVec2)> {
     Some(vertices.iter().fold((first, first), |(lo, hi), v| (lo.min(v.truncate()), hi.max(v.truncate()))))
 }
 
-fn mesh(soup: &Soup, origin: DVec3) -> Value {
+fn mesh(soup: &Soup, origin: DVec3) -> Result<Value, EncodeError> {
     let mut mesh = Map::new();
-    mesh.insert("position".to_owned(), bytes::points(&soup.vertices, origin).into());
+    mesh.insert("position".to_owned(), bytes::points(&soup.vertices, origin)?.into());
     if !soup.values.is_empty() {
-        mesh.insert("value".to_owned(), bytes::numbers(soup.values.iter().copied()).into());
+        mesh.insert("value".to_owned(), bytes::numbers(soup.values.iter().copied())?.into());
     }
     mesh.insert("index".to_owned(), bytes::indices(&soup.triangles).into());
-    Value::Object(mesh)
+    Ok(Value::Object(mesh))
 }
 
 /// The works with design minus ground at each corner, linear over each triangle; and whether some of the design is beside them,
@@ -174,7 +183,7 @@ fn by_part(design: &Tin) -> Soup {
 }
 
 /// Line work as pairs of ends, and the names of the kinds that were left out.
-fn lines(scene: &Scene<'_>, origin: DVec3) -> (Value, Vec<&'static str>) {
+fn lines(scene: &Scene<'_>, origin: DVec3) -> Result<(Value, Vec<&'static str>), EncodeError> {
     let (mut shown, mut dropped) = (Vec::new(), Vec::new());
     let mut room = MOST_SEGMENTS;
     for kind in KINDS {
@@ -190,9 +199,9 @@ fn lines(scene: &Scene<'_>, origin: DVec3) -> (Value, Vec<&'static str>) {
         room -= count;
         let local = |p: &DVec3| scene.design.frame.to_local(*p);
         let ends: Vec<DVec3> = features().flat_map(|line| line.points.windows(2)).flatten().map(local).collect();
-        shown.push(json!({ "kind": kind.name(), "ends": bytes::points(&ends, origin) }));
+        shown.push(json!({ "kind": kind.name(), "ends": bytes::points(&ends, origin)? }));
     }
-    (shown.into(), dropped)
+    Ok((shown.into(), dropped))
 }
 
 impl CurveKind {
