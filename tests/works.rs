@@ -102,6 +102,32 @@ fn a_pad_half_in_cut_half_in_fill() {
     assert!((t.platform.cut - 200.0).abs() < 1e-9 && (t.platform.fill - 200.0).abs() < 1e-9, "{t:?}");
 }
 
+/// A square yard of side 10, 1 above level ground, with slopes 1:1: along each side a prism of volume 10/2, at each corner a
+/// quarter of a cone, π/12. Wherever the ring begins, and whichever way it runs, each interval of 10 has one side and one corner.
+#[test]
+fn stations_of_a_ring_do_not_depend_on_its_first_vertex() {
+    let terrain = ground(10, 50.0, 0.0, 1, |_, _| 0.0);
+    let corners = [[0.0, 0.0, 1.0], [10.0, 0.0, 1.0], [10.0, 10.0, 1.0], [0.0, 10.0, 1.0]];
+    let mut rings = Vec::new();
+    for first in 0..4 {
+        let mut points = corners.to_vec();
+        points.rotate_left(first);
+        // The first vertex on a side, where simplifying drops it.
+        let middle = [0.5 * (points[0][0] + points[3][0]), 0.5 * (points[0][1] + points[3][1]), 1.0];
+        rings.push(points.clone());
+        rings.push([vec![middle], points].concat());
+    }
+    let backwards: Vec<_> = rings.iter().map(|points| points.iter().rev().copied().collect()).collect();
+    for points in [rings, backwards].concat() {
+        let options = Options { stations: Some(10.0), ..FINISHED };
+        let built = build(&[ring(&points)], 1.0, 1.0, &terrain, &options).unwrap();
+        for interval in &built.tallied.axes[0] {
+            let expected = 5.0 + std::f64::consts::PI / 12.0;
+            assert!((interval.amounts.fill - expected).abs() < 2e-3, "{points:?}: {interval:?}");
+        }
+    }
+}
+
 #[test]
 fn rolling_ground() {
     let mut failures = Vec::new();

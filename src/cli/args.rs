@@ -112,12 +112,18 @@ pub(super) struct BuildArgs {
     /// the working folder]
     #[arg(short, long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) output: Vec<OsString>,
-    /// Write the report; .json, .txt or .md, may be repeated [default: as text to standard output]
+    /// Write the report; .json, .txt, .md or .html, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
     /// Write slope stakes for every --stations and side: hinge, catch point, distances, slope; .csv, may be repeated
     #[arg(long, value_name = "FILE", requires = "stations", help_heading = help::OUTPUT)]
     pub(super) stakes: Vec<OsString>,
+    /// Draw as SVG; the name ends in plan.svg, profile.svg, sections.svg or haul.svg, which says what; may be repeated
+    #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
+    pub(super) plot: Vec<OsString>,
+    /// Stations of the cross-sections drawn, such as 40,80,120 [default: those of --stations]
+    #[arg(long, value_name = "S", value_delimiter = ',', allow_negative_numbers = true, help_heading = help::OUTPUT)]
+    pub(super) section: Vec<String>,
     /// Write the table of stations, all digits; .csv, may be repeated; needs --stations
     #[arg(long, value_name = "FILE", requires = "stations", help_heading = help::OUTPUT)]
     pub(super) station_table: Vec<OsString>,
@@ -209,7 +215,7 @@ pub(super) struct VolumeArgs {
     #[arg(long, value_name = "UNIT", help_heading = help::INPUT)]
     pub(super) units: Option<String>,
 
-    /// Write the report; .json, .txt or .md, may be repeated [default: as text to standard output]
+    /// Write the report; .json, .txt, .md or .html, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
 

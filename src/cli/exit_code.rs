@@ -53,6 +53,7 @@ impl Code {
                 | Error::Design(_)
                 | Error::Overlay(_)
                 | Error::Stations(_)
+                | Error::NoStation(_)
                 | Error::Buried(_),
             )
             | None => Self::Work,

@@ -7,6 +7,7 @@ use crate::model::{Bulking, Extent, LengthUnit, Sheet, Side, Slope};
 use crate::pipeline::{
     Against, Area, BuildJob, GroundInput, Lattice, LineInput, LocalOrigin, SampleJob, VolumeJob, Where, Wishes,
 };
+use crate::plot::Drawing;
 use crate::read::terrain::TerrainOptions;
 use crate::read::{ColumnOrder, InputFormat, Pick, ReadOptions};
 use crate::report::ReportFormat;
@@ -159,6 +160,44 @@ impl Checks {
         swell.zip(shrink).filter(|_| given).and_then(|(swell, shrink)| Bulking::new(swell, shrink))
     }
 
+    /// Where drawings go, and that there is what they need.
+    fn plots(&mut self, args: &BuildArgs) -> Vec<(Target, Drawing)> {
+        let mut plots = Vec::new();
+        for target in targets(&args.plot) {
+            let drawing = self.take(Drawing::of(&target).map_err(|error| error.to_string()));
+            plots.extend(drawing.map(|drawing| (target, drawing)));
+        }
+        for (target, drawing) in &plots {
+            let lacks = match drawing {
+                Drawing::Haul if args.terrain.is_none() || args.stations.is_none() => {
+                    Some(("the mass haul needs stations on existing ground", "give `--terrain` and `--stations`"))
+                }
+                Drawing::Sections if args.section.is_empty() && args.stations.is_none() => {
+                    Some(("cross-sections need stations", "choose some with `--section 40,80,120`, or give `--stations`"))
+                }
+                _ => None,
+            };
+            if let Some((what, help)) = lacks {
+                self.0.push(format!("{what}\n  --> --plot {target}\n   = help: {help}"));
+            }
+        }
+        plots
+    }
+
+    /// Stations of cross-sections, ascending; `drawn`: whether an output has any.
+    fn sections(&mut self, args: &BuildArgs, drawn: bool) -> Vec<f64> {
+        let mut stations: Vec<f64> =
+            args.section.iter().filter_map(|text| self.number("--section", Some(text), Rule::Coordinate)).collect();
+        stations.sort_by(f64::total_cmp);
+        stations.dedup();
+        if !args.section.is_empty() && !drawn {
+            let given = args.section.join(",");
+            let help = "ask for a drawing of them, such as `--plot sections.svg`, or for `--report report.html`";
+            self.0.push(format!("`--section` says where cross-sections are drawn\n  --> --section {given}\n   = help: {help}"));
+        }
+        stations
+    }
+
     /// Refuses options that mean nothing without existing ground.
     fn needs_ground(&mut self, options: &[(&str, Option<&String>)]) {
         for (option, text) in options {
@@ -267,6 +306,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     for target in &stakes {
         checks.format(ending(target, "table of slope stakes", &["csv"], "`.csv`"));
     }
+    let plots = checks.plots(args);
     let station_tables = targets(&args.station_table);
     for target in &station_tables {
         checks.format(ending(target, "table", &["csv"], "`.csv`"));
@@ -277,12 +317,15 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         let format = checks.format(ReportFormat::of(&target));
         reports.extend(format.map(|format| (target, format)));
     }
+    let drawn = plots.iter().any(|(_, d)| *d == Drawing::Sections) || reports.iter().any(|(_, format)| format.draws());
+    let sections = checks.sections(args, drawn);
     let used = meshes
         .iter()
         .chain(&finished)
         .map(|(t, _)| t)
         .chain(lines.iter().map(|(t, _)| t))
         .chain(&stakes)
+        .chain(plots.iter().map(|(t, _)| t))
         .chain(&station_tables)
         .chain(reports.iter().map(|(t, _)| t))
         .any(|t| *t == Target::Stdout);
@@ -323,6 +366,8 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         finished,
         lines,
         stakes,
+        plots,
+        sections,
         station_tables,
         local_origin: origin,
         reports,

@@ -7,7 +7,7 @@ use super::patch::{NONE, Patch};
 use super::reach::{Bounds, Reach};
 use super::shape::Shape;
 use super::stations::{Stations, axes};
-use super::tally::Tally;
+use super::tally::{Tally, split};
 use super::trimmed::Trimmed;
 use super::works::{End, Flood, Sink, Works};
 use super::{Corner, GroundError, Piece, Pieces, SectionFigures, Sections, cell};
@@ -429,6 +429,7 @@ fn rounded(end: f64, depth: f64, round: fn(f64) -> f64) -> f64 {
 /// Passes the pieces of the works on, with their stations.
 struct Feeder<'a> {
     shape: &'a Shape,
+    stations: &'a Stations,
     tally: Tally<'a>,
     sections: Option<Sections<'a>>,
     pieces: Option<Pieces>,
@@ -440,11 +441,22 @@ impl<'a> Feeder<'a> {
     fn new(shape: &'a Shape, stations: &'a Stations, keep: bool) -> Self {
         Self {
             shape,
+            stations,
             pieces: keep.then(Pieces::default),
             tally: Tally::new(stations),
             sections: stations.spacing().map(|_| Sections::new(stations)),
             covered: vec![0.0; shape.triangles.len()],
             corners: Vec::new(),
+        }
+    }
+
+    fn hand_on(&mut self, piece: &Piece<'_>) {
+        self.tally.add(piece);
+        if let Some(sections) = &mut self.sections {
+            sections.add(piece);
+        }
+        if let Some(pieces) = &mut self.pieces {
+            pieces.add(piece);
         }
     }
 
@@ -476,14 +488,22 @@ impl Sink for Feeder<'_> {
             self.corners.extend(corners.iter().map(|c| Corner { at: c.at, height: c.h, station: 0.0 }));
             None
         };
-        let piece = Piece { part: shape.parts[a as usize], axis, corners: &self.corners };
-        self.tally.add(&piece);
-        if let Some(sections) = &mut self.sections {
-            sections.add(&piece);
+        // Over the first vertex of a ring stations begin again.
+        let corners_of_piece = std::mem::take(&mut self.corners);
+        let part = shape.parts[a as usize];
+        let ring = axis.and_then(|axis| self.stations.axes().get(axis as usize)).filter(|axis| axis.closed);
+        let length = ring.map_or(f64::INFINITY, |axis| axis.length);
+        if corners_of_piece.iter().any(|corner| corner.station > length) {
+            let (mut before, mut behind) = (Vec::new(), Vec::new());
+            split(&corners_of_piece, length, &mut before, &mut behind);
+            behind.iter_mut().for_each(|corner| corner.station = (corner.station - length).max(0.0));
+            for corners in [&before, &behind].into_iter().filter(|corners| corners.len() > 2) {
+                self.hand_on(&Piece { part, axis, corners });
+            }
+        } else {
+            self.hand_on(&Piece { part, axis, corners: &corners_of_piece });
         }
-        if let Some(pieces) = &mut self.pieces {
-            pieces.add(&piece);
-        }
+        self.corners = corners_of_piece;
         let o = corners[0].at;
         let twice: f64 = corners[1..].windows(2).map(|w| (w[0].at - o).perp_dot(w[1].at - o)).sum();
         self.covered[a as usize] += 0.5 * twice;

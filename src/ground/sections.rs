@@ -102,17 +102,8 @@ impl<'a> Sections<'a> {
             let longest = self.stations.spacing().unwrap_or(axis.length);
             let ring = axis.closed.then_some(axis.length);
             let planes = self.axes[i].planes();
-            let sections: Vec<Section> = planes
-                .iter()
-                .zip(&mut self.chords[i])
-                .map(|(plane, chords)| {
-                    let (left, left_area) = outward(chords, plane.station, longest, ring);
-                    chords.iter_mut().for_each(Chord::mirror);
-                    let (right, right_area) = outward(chords, plane.station, longest, ring);
-                    let area = CutFill { cut: left_area.cut + right_area.cut, fill: left_area.fill + right_area.fill };
-                    Section { station: plane.station, area, left, right }
-                })
-                .collect();
+            let sections: Vec<Section> =
+                planes.iter().zip(&mut self.chords[i]).map(|(plane, chords)| section(plane, chords, longest, ring)).collect();
             let mut intervals = Vec::with_capacity(breaks.len());
             for (k, ends) in breaks.windows(2).enumerate() {
                 // An axis without length has no sections.
@@ -133,6 +124,29 @@ impl<'a> Sections<'a> {
         figures.prismoidal = CutFill { cut: c, fill: d };
         figures
     }
+}
+
+/// Cross-sections of one axis at chosen stations, in their order: the figures of [`Sections`] at any station.
+pub fn sections_at<'a>(pieces: impl Iterator<Item = Piece<'a>>, stations: &Stations, axis: usize, at: &[f64]) -> Vec<Section> {
+    let Some(course) = stations.axes().get(axis) else { return Vec::new() };
+    let plane = |station: &f64| place(course, *station).map(|(point, along)| Plane { point, along, station: *station });
+    let fan = Fan::new(at.iter().filter_map(plane).collect());
+    let mut chords = vec![Vec::new(); fan.planes().len()];
+    for piece in pieces.filter(|p| p.axis == u32::try_from(axis).ok() && p.corners.len() > 2 && p.part != Part::Ground) {
+        fan.near(piece.corners, |i, plane| chords[i].extend(chord(plane, &piece)));
+    }
+    let longest = stations.spacing().unwrap_or(course.length);
+    let ring = course.closed.then_some(course.length);
+    fan.planes().iter().zip(&mut chords).map(|(plane, chords)| section(plane, chords, longest, ring)).collect()
+}
+
+/// The section in a plane from what it crosses.
+fn section(plane: &Plane, chords: &mut [Chord], longest: f64, ring: Option<f64>) -> Section {
+    let (left, left_area) = outward(chords, plane.station, longest, ring);
+    chords.iter_mut().for_each(Chord::mirror);
+    let (right, right_area) = outward(chords, plane.station, longest, ring);
+    let area = CutFill { cut: left_area.cut + right_area.cut, fill: left_area.fill + right_area.fill };
+    Section { station: plane.station, area, left, right }
 }
 
 #[cfg(test)]

@@ -2,6 +2,8 @@
 
 mod clip;
 
+pub(super) use clip::split;
+
 use super::stations::interval_of;
 use super::{Corner, Piece, Stations};
 use crate::kernel::sum::Sum;

@@ -1,11 +1,13 @@
 //! The main job: a line to a surface, its files and its report.
 
+use super::error::NoStation;
 use super::heads::{LocalOrigin, Names, coarse, has_colours, heights_over, is_local, local_origin};
 use super::watch::{CHECKING, Observer, PREPARING, READING, READING_GROUND, Stopwatch, WRITING};
 use super::{BuriedError, Error, Given, GroundInput, LineInput, Wishes, check_steepness, figures, on_ground, read_line};
 use crate::ground::{Pieces, Stations, Tallied, axes};
+use crate::kernel::frame::Frame;
 use crate::model::{Bulking, Line, LineFeature, Note, Sheet, Terrain, Tin};
-use crate::plot::{OnGround, Scene};
+use crate::plot::{self, Drawing, OnGround, Scene};
 use crate::read::Source;
 use crate::report::{CrossfallFigures, Report, ReportFormat, write_station_table};
 use crate::setout::{self, Stake};
@@ -41,6 +43,10 @@ pub struct BuildJob {
     pub lines: Vec<(Target, LineFormat)>,
     /// Where slope stakes go; they need stations.
     pub stakes: Vec<Target>,
+    /// Where drawings go.
+    pub plots: Vec<(Target, Drawing)>,
+    /// Stations of the cross-sections to be drawn; none: all of `stations`, in a report some.
+    pub sections: Vec<f64>,
     /// Where tables of the stations go, as CSV; needs stations.
     pub station_tables: Vec<Target>,
     /// Origin of the meshes for viewers. `None`: world coordinates in the formats that hold doubles.
@@ -65,6 +71,7 @@ enum Content {
     Finished(MeshFormat),
     Lines(LineFormat),
     Stakes,
+    Plot(Drawing),
     Stations,
     /// Origin of the mesh of the output with this number.
     Origin(usize),
@@ -83,6 +90,7 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     let mut outputs = Outputs::open(&targets, &inputs)?;
 
     let Given { line, source, unit } = read_line(&job.input, &watch)?;
+    check_sections(job, &line)?;
     let Product { design, finished, lines, survey, mut report } = match &job.ground {
         Some(ground) => on_ground::build(job, ground, &line, &source, unit, &watch)?,
         None => alone(job, &line, &source, &watch)?,
@@ -110,13 +118,14 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     // Of the line, else of the ground.
     let crs = report.inputs.iter().find_map(|input| input.crs.clone());
     let crs = crs.as_deref();
-    let _scene = Scene {
+    let scene = Scene {
         title: &source.label,
         unit,
         crs,
         line: &line,
         design: &design,
         lines: &lines,
+        bulking: job.bulking,
         ground: survey.as_ref().map(Survey::scene),
     };
     let head = Head { crs, unit, name: &names.design, lines: &lines, earthworks, origin: None, depths: None };
@@ -137,7 +146,8 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
             },
             Content::Stakes => write_stakes(out, &stakes),
             Content::Stations => write_station_table(out, report),
-            Content::Report(format) => format.write(out, report),
+            Content::Plot(drawing) => Ok(out.write_all(plot::file(&scene, drawing, &job.sections).as_bytes())?),
+            Content::Report(format) => format.write(out, report, &scene, &job.sections),
         })
     };
     for index in in_order(&targets, &contents) {
@@ -150,6 +160,13 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     stamp(&mut report, &watch);
     let written = targets.into_iter().filter(|target| !target.is_stream()).collect();
     Ok(Built { report, written })
+}
+
+/// Refuses cross-sections where there is no line.
+fn check_sections(job: &BuildJob, line: &Line) -> Result<(), NoStation> {
+    let longest = axes(line, &Frame::WORLD).iter().map(|axis| axis.length).fold(0.0, f64::max);
+    let beside = job.sections.iter().copied().find(|station| !(0.0..=longest).contains(station));
+    beside.map_or(Ok(()), |station| Err(NoStation { station, longest }))
 }
 
 /// The note about elevations that were asked for and have no level curve.
@@ -206,7 +223,8 @@ impl Survey {
 impl BuildJob {
     /// Whether an output needs ground and pieces of the works, beyond meshes, line work and figures.
     pub(super) fn draws(&self) -> bool {
-        !self.stakes.is_empty() || has_colours(self)
+        let pages = self.reports.iter().any(|(_, format)| format.draws());
+        !self.stakes.is_empty() || !self.plots.is_empty() || pages || has_colours(self)
     }
 }
 
@@ -242,6 +260,7 @@ fn wanted(job: &BuildJob) -> Vec<(Target, Content)> {
     let reports = job.reports.iter().map(|(target, format)| (target.clone(), Content::Report(*format)));
     let tables = job.station_tables.iter().map(|target| (target.clone(), Content::Stations));
     let stakes = job.stakes.iter().map(|target| (target.clone(), Content::Stakes));
+    let plots = job.plots.iter().map(|(target, drawing)| (target.clone(), Content::Plot(*drawing)));
     let mut all: Vec<(Target, Content)> = meshes.chain(finished).collect();
     // Beside every file that does not hold world coordinates stands one that tells its origin.
     for mesh in 0..all.len() {
@@ -252,7 +271,7 @@ fn wanted(job: &BuildJob) -> Vec<(Target, Content)> {
             all.push((Target::File(origin::sidecar(path)), Content::Origin(mesh)));
         }
     }
-    all.extend(lines.chain(stakes).chain(tables).chain(reports));
+    all.extend(lines.chain(stakes).chain(tables).chain(plots).chain(reports));
     all
 }
 

@@ -50,6 +50,9 @@ pub enum Error {
     /// Stations too close together.
     #[error(transparent)]
     Stations(#[from] TooManyStations),
+    /// A cross-section was asked for where there is no line.
+    #[error(transparent)]
+    NoStation(#[from] NoStation),
     /// Stretches of the line are buried, and that was not to be.
     #[error(transparent)]
     Buried(#[from] BuriedError),
@@ -75,6 +78,19 @@ fn located(label: &str, message: &str) -> String {
         Some((what, rest)) => format!("{what}\n  --> {label}\n{rest}"),
         None => format!("{message}\n  --> {label}"),
     }
+}
+
+/// A station that is on none of the lines.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "there is no station {station}\n  --> --section {station}\n   = stations run from 0 to {longest:.3} on the longest line\n   \
+     = help: choose stations in that range"
+)]
+pub struct NoStation {
+    /// The station.
+    pub station: f64,
+    /// Length of the longest line.
+    pub longest: f64,
 }
 
 /// All buried stretches of a line that was to have none.

@@ -1,7 +1,7 @@
 //! What there is to draw.
 
 use crate::ground::{Pieces, Stations, Tallied};
-use crate::model::{LengthUnit, Line, LineFeature, Terrain, Tin};
+use crate::model::{Bulking, LengthUnit, Line, LineFeature, Terrain, Tin};
 
 /// A design and what surrounds it. The frame of `design` is that of the ground, if there is ground.
 #[derive(Clone, Copy, Debug)]
@@ -18,8 +18,17 @@ pub struct Scene<'a> {
     pub design: &'a Tin,
     /// Line work, in world coordinates.
     pub lines: &'a [LineFeature],
+    /// How the soil changes its volume, if that is reckoned with.
+    pub bulking: Option<Bulking>,
     /// The existing ground.
     pub ground: Option<OnGround<'a>>,
+}
+
+impl Scene<'_> {
+    /// The title without folders.
+    pub(super) fn name(&self) -> &str {
+        self.title.rsplit(['/', '\\']).next().filter(|name| !name.is_empty()).unwrap_or(self.title)
+    }
 }
 
 /// The existing ground and the works on it.

@@ -61,7 +61,7 @@ pub struct Edge {
     /// Whether the inside of a ring lies on the left (0) and on the right (1).
     pub interior: [bool; 2],
     /// Given vertices at its ends. An edge runs along its chain; the end of a ring's last segment counts on past the last
-    /// vertex. Where several chains share an edge, the first.
+    /// vertex. An edge of a simplified ring may run over the first vertex: it then ends at a lesser one than it begins. Where several chains share an edge, the first.
     pub given: [Given; 2],
     /// Vertices between the ends.
     pub inner: Vec<Inner>,
@@ -201,7 +201,7 @@ impl Network {
             let point = if exact { points[d.index] } else { pa.lerp(pb, d.along) };
             inner.push(Inner { s: d.along * length, point, given: run.given[d.index] });
         }
-        let given = [run.given[chord.from], run.given[chord.to]];
+        let given = [run.given[chord.from], run.arriving[chord.to]];
         self.edges.push(Edge { a, b, given, wanted: run.wanted, interior: run.interior, inner });
     }
 
@@ -300,6 +300,8 @@ struct Run {
     nodes: Vec<u32>,
     /// The given vertex at each node.
     given: Vec<Given>,
+    /// The same as the end of what comes before: a ring's first vertex counts on past the last one there.
+    arriving: Vec<Given>,
     wanted: [bool; 2],
     interior: [bool; 2],
 }
@@ -352,6 +354,7 @@ impl<'a> Runs<'a> {
         let mut run = Run {
             nodes: vec![piece.ends[0], piece.ends[1]],
             given: piece.given.to_vec(),
+            arriving: piece.given.to_vec(),
             wanted: piece.wanted,
             interior: piece.interior,
         };
@@ -367,6 +370,7 @@ impl<'a> Runs<'a> {
             at = self.pieces[next as usize].ends[1];
             run.nodes.push(at);
             run.given.push(self.pieces[next as usize].given[1]);
+            run.arriving.push(self.pieces[next as usize].given[1]);
         }
         run
     }
@@ -388,11 +392,12 @@ impl<'a> Runs<'a> {
         let part = |from: usize, to: usize| {
             let count = (to + ring.len() - from - 1) % ring.len() + 1;
             let at: Vec<usize> = (0..=count).map(|i| (from + i) % ring.len()).collect();
-            // Where the first vertex of the walk comes last, its place counts on past the last vertex.
-            let last = run.given[at[count - 1] + 1];
+            // Where the walk comes back to its first vertex, that one's place counts on past the last vertex.
+            let arriving = at.iter().take(count).map(|&i| run.given[i + 1]);
             Run {
                 nodes: at.iter().map(|&i| ring[i]).collect(),
-                given: at[..count].iter().map(|&i| run.given[i]).chain([last]).collect(),
+                given: at.iter().map(|&i| run.given[i]).collect(),
+                arriving: std::iter::once(run.given[from]).chain(arriving).collect(),
                 wanted: run.wanted,
                 interior: run.interior,
             }

@@ -1,8 +1,8 @@
 //! Foot points: which place of the line every slope triangle belongs to.
 
-use crate::model::{Line, Sheet};
+use crate::model::{Chain, Line, Sheet};
 use crate::slope::facet::{Facet, Kind};
-use crate::slope::network::{Given, Network};
+use crate::slope::network::{Edge, Given, Network};
 use glam::DVec2;
 
 /// The foot points of one facet, as stations: a linear function of the plan position on a strip, one station on a cone.
@@ -19,7 +19,8 @@ pub struct Foot {
     pub station: f64,
     /// Change of the station per length unit in plan; nought on cones.
     pub gradient: DVec2,
-    /// Stations of the two ends of the strip, ascending.
+    /// Stations of the two ends of the strip, ascending. Where it runs over the first vertex of a ring, they count on past its
+    /// length.
     pub range: [f64; 2],
     /// Whether the facet is a cone sector.
     pub on_cone: bool,
@@ -33,23 +34,42 @@ impl Foot {
 }
 
 /// Stations of the vertices of each chain: those on its centre line where it has one.
-pub(super) struct Stations(Vec<Vec<f64>>);
+pub(super) struct Stations {
+    of_vertices: Vec<Vec<f64>>,
+    /// Length of rings whose stations are their own.
+    rings: Vec<Option<f64>>,
+}
 
 impl Stations {
     pub(super) fn new(line: &Line) -> Self {
-        Self(
-            line.chains
-                .iter()
-                .map(|chain| chain.axis.as_ref().map_or_else(|| chain.stations(), |axis| axis.stations.clone()))
-                .collect(),
-        )
+        let own = |chain: &Chain| chain.axis.as_ref().map_or_else(|| chain.stations(), |axis| axis.stations.clone());
+        let of_vertices: Vec<Vec<f64>> = line.chains.iter().map(own).collect();
+        let ring = |(chain, stations): (&Chain, &Vec<f64>)| {
+            let own = chain.closed() && chain.axis.is_none();
+            stations.last().copied().filter(|_| own)
+        };
+        let rings = line.chains.iter().zip(&of_vertices).map(ring).collect();
+        Self { of_vertices, rings }
     }
 
     fn at(&self, given: Given) -> f64 {
-        let stations = &self.0[given.chain as usize];
+        let stations = &self.of_vertices[given.chain as usize];
         let from = stations[given.vertex as usize];
         let to = stations.get(given.vertex as usize + 1).copied().unwrap_or(from);
         from + given.part * (to - from)
+    }
+
+    /// A station from the length of a ring on, as one from nought: there the ring begins.
+    fn on_ring(&self, edge: &Edge, station: f64) -> f64 {
+        let ring = self.rings[edge.given[0].chain as usize];
+        ring.filter(|length| station >= *length).map_or(station, |length| station - length)
+    }
+
+    /// Stations of both ends of an edge. Of one that runs over the first vertex of a ring, the second counts on past its length.
+    fn ends(&self, edge: &Edge) -> [f64; 2] {
+        let [first, second] = edge.given.map(|given| self.at(given));
+        let ring = self.rings[edge.given[0].chain as usize];
+        [first, ring.filter(|_| second < first).map_or(second, |length| second + length)]
     }
 }
 
@@ -60,9 +80,9 @@ pub(super) fn foot(facet: &Facet, network: &Network, stations: &Stations, leavin
         Kind::Sector(_) => (leaving.unwrap_or(0), true),
     };
     let edge = &network.edges[(half_edge / 2) as usize];
-    let [first, second] = if half_edge & 1 == 0 { [edge.given[0], edge.given[1]] } else { [edge.given[1], edge.given[0]] };
-    let from = stations.at(first);
-    let to = if on_cone { from } else { stations.at(second) };
+    let [a, b] = stations.ends(edge);
+    let (from, to) = if half_edge & 1 == 0 { (a, b) } else { (b, a) };
+    let (from, to) = if on_cone { (stations.on_ring(edge, from), stations.on_ring(edge, from)) } else { (from, to) };
     let gradient = if on_cone || facet.tau_max <= 0.0 {
         DVec2::ZERO
     } else {
@@ -70,7 +90,14 @@ pub(super) fn foot(facet: &Facet, network: &Network, stations: &Stations, leavin
         let across = facet.u.perp();
         (facet.u - across * (facet.u.dot(facet.d) / across.dot(facet.d))) * ((to - from) / facet.tau_max)
     };
-    Foot { chain: first.chain, origin: facet.origin, station: from, gradient, range: [from.min(to), from.max(to)], on_cone }
+    Foot {
+        chain: edge.given[0].chain,
+        origin: facet.origin,
+        station: from,
+        gradient,
+        range: [from.min(to), from.max(to)],
+        on_cone,
+    }
 }
 
 /// The kind of crease of a sheet: the falling one is the greatest of its facets, where two meet it is lower than around.

@@ -10,6 +10,7 @@ mod ground;
 mod help;
 mod landxml;
 mod messages;
+mod plots;
 mod sample;
 mod streams;
 #[cfg(unix)]

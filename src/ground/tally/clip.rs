@@ -4,7 +4,7 @@ use crate::ground::Corner;
 
 /// Splits a convex polygon at a station into what lies `before` and what lies `behind`; both are overwritten, and each has fewer
 /// than three corners where nothing of it lies there. Corners at the station belong to both.
-pub(super) fn split(corners: &[Corner], station: f64, before: &mut Vec<Corner>, behind: &mut Vec<Corner>) {
+pub(in crate::ground) fn split(corners: &[Corner], station: f64, before: &mut Vec<Corner>, behind: &mut Vec<Corner>) {
     before.clear();
     behind.clear();
     let Some(mut from) = corners.last() else { return };
