@@ -1,8 +1,11 @@
 //! What a run has to tell: as data ([`Report`]), as JSON for machines, as text and Markdown for people, its rows as tables.
 
+pub mod batch;
 pub mod between;
 pub mod check;
+pub mod diff;
 pub mod ground;
+pub mod info;
 pub mod json;
 pub mod model;
 mod page;
@@ -14,12 +17,15 @@ pub mod volumes;
 #[cfg(test)]
 mod testing;
 
+pub use batch::{BATCH_SCHEMA, BatchReport, JobResult, JobRow, JobVolumes, render_batch};
 pub use between::BetweenReport;
 pub use check::{CHECK_SCHEMA, CheckReport, Checked, render_check, render_check_markdown};
+pub use diff::{DIFF_SCHEMA, DiffReport, render_diff};
 pub use ground::{
     Daylight, EndArea, FinishedFigures, GroundAreas, PadRow, SectionRow, SectionSlopes, SlopeRange, StationRow, TerrainFigures,
     ThreeSections, station_rows,
 };
+pub use info::{INFO_SCHEMA, InfoReport, render_info};
 pub use json::write_json;
 pub use model::*;
 pub use tables::write_station_table;
@@ -69,6 +75,19 @@ impl ReportFormat {
             Self::Text => write_text(out, report),
             Self::Markdown => write_markdown(out, report),
         }
+    }
+
+    /// Writes a report that is JSON or else text.
+    ///
+    /// # Errors
+    /// As [`write_json`].
+    pub fn write_plain(
+        self,
+        out: &mut (impl Write + ?Sized),
+        report: &impl serde::Serialize,
+        text: impl FnOnce() -> String,
+    ) -> Result<(), EncodeError> {
+        if self == Self::Json { write_json(out, report) } else { Ok(out.write_all(text().as_bytes())?) }
     }
 
     /// Writes the report of a comparison in this format.
