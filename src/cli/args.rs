@@ -1,20 +1,27 @@
 //! Arguments as typed: what the parser can check by itself, and the words of the help.
 
+use super::batch::BatchArgs;
 use super::check::CheckArgs;
+use super::diff::DiffArgs;
+use super::generate::{CompletionsArgs, ManArgs};
 use super::help;
+use super::info::InfoArgs;
 use clap::{ArgAction, ArgGroup, Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// The whole command line, for those who generate from it.
+/// The whole command line, for those who generate from it: with the styles and the long texts of the help.
 pub fn command() -> clap::Command {
-    Arguments::command()
+    help::dressed(Arguments::command())
 }
 
 /// Surfaces of constant slope through a 3D line, for earthworks
 #[derive(Debug, Parser)]
-#[command(name = "slopegen", version, arg_required_else_help = true, after_help = help::AFTER, max_term_width = 110)]
+#[command(name = "slopegen", version, arg_required_else_help = true, max_term_width = 110)]
 pub(super) struct Arguments {
+    /// Colours: on terminals only, always, or never
+    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value = "auto", help_heading = help::RUNNING)]
+    pub(super) color: ColorArg,
     #[command(subcommand)]
     pub(super) command: Command,
 }
@@ -22,17 +29,31 @@ pub(super) struct Arguments {
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Build the surface and write mesh, line work and report
-    #[command(after_help = help::AFTER_BUILD, arg_required_else_help = true)]
+    #[command(arg_required_else_help = true)]
     Build(Box<BuildArgs>),
     /// Exact cut and fill between two surfaces, or a surface and a level
-    #[command(after_help = help::AFTER_VOLUME, arg_required_else_help = true)]
+    #[command(arg_required_else_help = true)]
     Volume(Box<VolumeArgs>),
     /// Exact heights of the surface at points or as a raster
-    #[command(after_help = help::AFTER_SAMPLE, arg_required_else_help = true)]
+    #[command(arg_required_else_help = true)]
     Sample(Box<SampleArgs>),
     /// Look at a mesh from anywhere: soundness, slopes, angles
-    #[command(after_help = help::AFTER_CHECK, arg_required_else_help = true)]
+    #[command(arg_required_else_help = true)]
     Check(Box<CheckArgs>),
+    /// Build many jobs at once, with one summary
+    #[command(arg_required_else_help = true)]
+    Batch(Box<BatchArgs>),
+    /// What differs between two reports, or between two surfaces
+    #[command(arg_required_else_help = true)]
+    Diff(Box<DiffArgs>),
+    /// What a file holds, and what is wrong with it
+    #[command(arg_required_else_help = true)]
+    Info(Box<InfoArgs>),
+    /// Completions for a shell, to standard output
+    #[command(arg_required_else_help = true)]
+    Completions(CompletionsArgs),
+    /// Manual pages
+    Man(ManArgs),
 }
 
 #[derive(Debug, Args)]
@@ -225,7 +246,7 @@ pub(super) struct VolumeArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct InputArgs {
-    /// The line: .geojson, .json, .csv, .txt, .tsv, .xyz or LandXML (.xml); - is standard input
+    /// The line: .geojson, .json, .csv, .txt, .tsv, .xyz or LandXML (.xml); - is standard input. For `build` also a job file, .toml
     #[arg(value_name = "INPUT")]
     pub(super) input: PathBuf,
     /// Format of the input [default: by its extension]
@@ -284,6 +305,14 @@ pub(super) struct Running {
     /// Number of threads [default: one for each processor]
     #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = help::RUNNING)]
     pub(super) threads: Option<String>,
+}
+
+/// When there are colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ColorArg {
+    Auto,
+    Always,
+    Never,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

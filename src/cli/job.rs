@@ -44,6 +44,18 @@ impl fmt::Display for UsageErrors {
 
 impl std::error::Error for UsageErrors {}
 
+impl UsageErrors {
+    /// One thing wrong.
+    pub(super) fn one(message: String) -> Self {
+        Self(vec![message])
+    }
+
+    /// Several; at least one.
+    pub(super) fn all(messages: Vec<String>) -> Self {
+        Self(messages)
+    }
+}
+
 /// Gathers what is wrong, so that all of it is told at once.
 #[derive(Default)]
 pub(super) struct Checks(Vec<String>);
@@ -62,7 +74,7 @@ impl Checks {
         self.take(result.map_err(|error| error.to_string()))
     }
 
-    fn order(&mut self, option: &str, text: Option<&String>) -> Option<ColumnOrder> {
+    pub(super) fn order(&mut self, option: &str, text: Option<&String>) -> Option<ColumnOrder> {
         let text = text?;
         let result = text.parse::<ColumnOrder>();
         self.take(result.map_err(|error| match error.split_once("; ") {
@@ -207,6 +219,19 @@ impl Checks {
                 ));
             }
         }
+    }
+
+    /// Where reports go that are JSON or text: to standard output as text besides, unless quiet.
+    pub(super) fn plain_reports(&mut self, arguments: &[OsString], quiet: bool) -> Vec<(Target, ReportFormat)> {
+        let mut reports = Vec::new();
+        for target in targets(arguments) {
+            self.format(ending(&target, "report", &["json", "txt"], "`.json` or `.txt`"));
+            reports.extend(ReportFormat::of(&target).ok().map(|format| (target, format)));
+        }
+        if !reports.iter().any(|(target, _)| *target == Target::Stdout) && !quiet {
+            reports.push((Target::Stdout, ReportFormat::Text));
+        }
+        reports
     }
 
     pub(super) fn finish<T>(self, job: Option<T>) -> Result<T, UsageErrors> {
@@ -460,7 +485,7 @@ pub(super) fn targets(arguments: &[OsString]) -> Vec<Target> {
 }
 
 /// The input's name with the ending of a mesh, in the working folder.
-fn default_output(input: &Path) -> OsString {
+pub(super) fn default_output(input: &Path) -> OsString {
     let stem = if input == Path::new("-") { None } else { input.file_stem() };
     let mut name = stem.unwrap_or(OsStr::new("slopegen")).to_owned();
     name.push(".obj");

@@ -253,6 +253,11 @@ fn surface_error(source: &Source, cause: surface::SurfaceError) -> Error {
     Error::Surface { label: source.label.clone(), cause }
 }
 
+/// All outputs of a job.
+pub(super) fn targets(job: &BuildJob) -> Vec<Target> {
+    wanted(job).into_iter().map(|(target, _)| target).collect()
+}
+
 fn wanted(job: &BuildJob) -> Vec<(Target, Content)> {
     let meshes = job.meshes.iter().map(|(target, format)| (target.clone(), Content::Mesh(*format)));
     let finished = job.finished.iter().map(|(target, format)| (target.clone(), Content::Finished(*format)));

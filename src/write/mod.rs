@@ -3,6 +3,7 @@
 //! The format modules write to any [`std::io::Write`] and know nothing of files; [`atomic`] knows files and nothing of formats.
 
 pub mod atomic;
+mod clash;
 pub mod dxf;
 pub mod error;
 pub mod glb;
@@ -22,6 +23,7 @@ pub mod stl;
 mod target;
 
 pub use atomic::{Delivery, Outputs, Target, discard_unfinished};
+pub use clash::{Clash, Footprint, first_clash};
 pub use dxf::{write_dxf, write_dxf_lines};
 pub use error::{EncodeError, WriteError};
 pub use glb::write_glb;

@@ -158,7 +158,7 @@ pub(super) fn check(label: &str, bytes: &[u8], format: InputFormat) -> Result<()
 }
 
 /// The format of a file whose name says nothing.
-pub(super) fn only_by_content(label: &str, bytes: &[u8]) -> Result<InputFormat, ReadError> {
+pub(in crate::read) fn only_by_content(label: &str, bytes: &[u8]) -> Result<InputFormat, ReadError> {
     let what = "the extension does not say what format the ground has";
     match looks(bytes) {
         Looks::Like(format) => Ok(format),

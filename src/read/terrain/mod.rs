@@ -3,7 +3,7 @@
 mod asc;
 mod comments;
 mod geotiff;
-mod kind;
+pub(super) mod kind;
 mod las;
 mod mesh;
 mod obj;

@@ -1,0 +1,234 @@
+//! Everything a file holds, whatever it would be used for.
+
+use super::terrain::{RawFaces, RawGround, RawTerrain, TerrainOptions, kind, read_terrain};
+use super::{InputFormat, RawInput, RawLine, RawShape, ReadError, ReadOptions, Source, read_line};
+use glam::DVec3;
+use std::path::Path;
+
+/// One thing a file holds. Coordinates and lengths are in the unit of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Held {
+    /// A line or ring.
+    Line {
+        /// Its name, if it has one.
+        name: Option<String>,
+        /// What it is.
+        shape: RawShape,
+        /// Vertices as given.
+        vertices: usize,
+        /// How many of them have no elevation.
+        without_elevation: usize,
+        /// Length in plan.
+        length: f64,
+        /// Whether it ends where it begins.
+        closed: bool,
+        /// Lowest and highest elevation.
+        z: Option<[f64; 2]>,
+    },
+    /// A mesh.
+    Surface {
+        /// Its name, if it has one.
+        name: Option<String>,
+        /// Its vertices.
+        vertices: usize,
+        /// Its faces.
+        faces: usize,
+    },
+    /// Points without faces.
+    Points {
+        /// Name of their layer or class, if they have one.
+        name: Option<String>,
+        /// How many.
+        count: usize,
+    },
+    /// Heights at the nodes of a grid.
+    Grid {
+        /// Nodes from west to east.
+        columns: usize,
+        /// Nodes from north to south.
+        rows: usize,
+        /// Distance of the nodes to the east and to the north.
+        step: [f64; 2],
+        /// Nodes without a height.
+        missing: usize,
+    },
+}
+
+/// A file as it can be used.
+#[derive(Debug)]
+pub struct Inventory {
+    /// Its format.
+    pub format: InputFormat,
+    /// Its length in bytes.
+    pub bytes: u64,
+    /// What it holds.
+    pub held: Vec<Held>,
+    /// The smallest box around all of it, lower and upper corner.
+    pub bounds: Option<[DVec3; 2]>,
+    /// What it is as a line; `None`: never one, by its format.
+    pub line: Option<Result<RawInput, ReadError>>,
+    /// What it is as ground; `None`: never ground, by its format.
+    pub ground: Option<Result<RawTerrain, ReadError>>,
+}
+
+impl Inventory {
+    /// What the file says about itself, from whatever could be read.
+    pub fn source(&self) -> Option<&Source> {
+        let line = self.line.as_ref().and_then(|line| line.as_ref().ok()).map(|line| &line.source);
+        let ground = self.ground.as_ref().and_then(|ground| ground.as_ref().ok()).map(|ground| &ground.source);
+        line.into_iter().chain(ground).max_by_key(|source| (source.unit.is_some(), source.crs.is_some()))
+    }
+}
+
+/// Reads a file as everything it may be.
+///
+/// # Errors
+/// [`ReadError`] when the file cannot be opened, or nothing says what it is. What is wrong with it as a line or as ground stands
+/// in the answer.
+pub fn inventory(path: &Path, options: &ReadOptions) -> Result<Inventory, ReadError> {
+    let open = |cause| ReadError::Open { label: path.display().to_string(), cause };
+    let bytes = std::fs::metadata(path).map_err(open)?.len();
+    let format = match options.format.or_else(|| InputFormat::from_path(path)) {
+        Some(format) => format,
+        None => by_content(path)?,
+    };
+    let [as_line, as_ground] = uses(format);
+    let line = as_line.then(|| read_line(path, &ReadOptions { format: Some(format), ..options.clone() }));
+    let ground = as_ground.then(|| {
+        let format = Some(format).filter(|_| InputFormat::from_path(path).is_none());
+        let (csv_order, pick) = (options.csv_order.clone(), options.pick.clone());
+        read_terrain(path, &TerrainOptions { format, csv_order, pick })
+    });
+    let raw_line = line.as_ref().and_then(|line| line.as_ref().ok());
+    let raw_ground = ground.as_ref().and_then(|ground| ground.as_ref().ok());
+    let mut held: Vec<Held> = raw_line.into_iter().flat_map(|line| line.lines.iter().map(held_line)).collect();
+    held.extend(raw_ground.map(|ground| held_ground(&ground.ground)));
+    let mut bounds = None;
+    raw_line.into_iter().for_each(|line| around_line(line, &mut bounds));
+    raw_ground.into_iter().for_each(|ground| around_ground(&ground.ground, &mut bounds));
+    Ok(Inventory { format, bytes, held, bounds, line, ground })
+}
+
+/// Whether a format can hold a line, and ground. Those that are never either are refused as what they are read as.
+fn uses(format: InputFormat) -> [bool; 2] {
+    match format {
+        InputFormat::GeoJson | InputFormat::Gpx => [true, false],
+        InputFormat::Csv | InputFormat::LandXml | InputFormat::Dxf => [true, true],
+        InputFormat::Obj | InputFormat::Ply | InputFormat::Asc | InputFormat::GeoTiff | InputFormat::Las => [false, true],
+    }
+}
+
+fn by_content(path: &Path) -> Result<InputFormat, ReadError> {
+    let label = path.display().to_string();
+    let bytes = std::fs::read(path).map_err(|cause| ReadError::Open { label: label.clone(), cause })?;
+    let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&bytes);
+    match text.iter().find(|b| !b.is_ascii_whitespace()) {
+        Some(b'{') => Ok(InputFormat::GeoJson),
+        _ => kind::only_by_content(&label, &bytes),
+    }
+}
+
+fn held_line(line: &RawLine) -> Held {
+    let plan = |i: usize| glam::DVec2::new(line.vertices[i].x, line.vertices[i].y);
+    let count = line.vertices.len();
+    let heights = line.vertices.iter().filter_map(|v| v.z).filter(|z| z.is_finite());
+    let z = heights.fold(None, |range: Option<[f64; 2]>, z| Some(range.map_or([z, z], |[lo, hi]| [lo.min(z), hi.max(z)])));
+    let length: f64 = (1..count).map(|i| plan(i).distance(plan(i - 1))).filter(|length| length.is_finite()).sum();
+    let ring = matches!(line.shape, RawShape::Ring { .. });
+    Held::Line {
+        name: line.name.clone(),
+        shape: line.shape,
+        vertices: count,
+        without_elevation: line.vertices.iter().filter(|v| v.z.is_none()).count(),
+        length,
+        closed: ring || count > 2 && plan(0) == plan(count - 1),
+        z,
+    }
+}
+
+fn held_ground(ground: &RawGround) -> Held {
+    match ground {
+        RawGround::Mesh { vertices, faces } => {
+            Held::Surface { name: None, vertices: vertices.len(), faces: RawFaces::len(faces) }
+        }
+        RawGround::Points(points) => Held::Points { name: None, count: points.len() },
+        RawGround::Grid(grid) => Held::Grid {
+            columns: grid.columns,
+            rows: grid.rows,
+            step: grid.step.to_array(),
+            missing: grid.heights.iter().filter(|z| z.is_nan()).count(),
+        },
+    }
+}
+
+fn grow(bounds: &mut Option<[DVec3; 2]>, p: DVec3) {
+    if p.is_finite() {
+        *bounds = Some(bounds.map_or([p, p], |[lo, hi]| [lo.min(p), hi.max(p)]));
+    }
+}
+
+fn around_line(line: &RawInput, bounds: &mut Option<[DVec3; 2]>) {
+    for vertex in line.lines.iter().flat_map(|line| &line.vertices) {
+        if let Some(z) = vertex.z {
+            grow(bounds, DVec3::new(vertex.x, vertex.y, z));
+        }
+    }
+}
+
+fn around_ground(ground: &RawGround, bounds: &mut Option<[DVec3; 2]>) {
+    match ground {
+        RawGround::Mesh { vertices, .. } | RawGround::Points(vertices) => vertices.iter().for_each(|v| grow(bounds, *v)),
+        RawGround::Grid(grid) => {
+            let last = glam::DVec2::new(grid.columns.saturating_sub(1) as f64, grid.rows.saturating_sub(1) as f64);
+            let far = grid.origin + grid.step * last;
+            for z in grid.heights.iter().filter(|z| z.is_finite()) {
+                grow(bounds, grid.origin.extend(*z));
+                grow(bounds, far.extend(*z));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(name: &str, content: &str) -> Result<Inventory, ReadError> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(name);
+        std::fs::write(&path, content).unwrap();
+        inventory(&path, &ReadOptions::default())
+    }
+
+    #[test]
+    fn lines_of_a_file() {
+        let found = of("a.geojson", r#"{"type":"LineString","coordinates":[[0,0,5],[3,4,7],[3,4,6]]}"#).unwrap();
+        assert!(found.ground.is_none() && found.line.as_ref().is_some_and(Result::is_ok));
+        let [Held::Line { vertices: 3, without_elevation: 0, length, closed: false, z: Some(z), .. }] = &found.held[..] else {
+            panic!("{:?}", found.held)
+        };
+        assert_eq!((*length, *z), (5.0, [5.0, 7.0]));
+        assert_eq!(found.bounds, Some([DVec3::new(0.0, 0.0, 5.0), DVec3::new(3.0, 4.0, 7.0)]));
+    }
+
+    #[test]
+    fn text_may_be_line_and_ground() {
+        let found = of("a.csv", "x,y,z\n0,0,1\n10,0,2\n0,10,3\n").unwrap();
+        assert!(matches!(found.held[..], [Held::Line { vertices: 3, .. }, Held::Points { count: 3, .. }]), "{:?}", found.held);
+    }
+
+    #[test]
+    fn a_grid() {
+        let text = "ncols 3\nnrows 2\nxllcenter 100\nyllcenter 200\ncellsize 5\nNODATA_value -9999\n1 2 3\n4 -9999 6\n";
+        let found = of("a.asc", text).unwrap();
+        assert_eq!(found.held, [Held::Grid { columns: 3, rows: 2, step: [5.0, 5.0], missing: 1 }]);
+        assert_eq!(found.bounds, Some([DVec3::new(100.0, 200.0, 1.0), DVec3::new(110.0, 205.0, 6.0)]));
+    }
+
+    #[test]
+    fn by_content_where_the_name_says_nothing() {
+        assert_eq!(of("a.dat", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap().format, InputFormat::Obj);
+        assert_eq!(of("a", " {\"type\":\"Point\"}").unwrap().format, InputFormat::GeoJson);
+        assert!(of("a.dat", "nothing known\n").is_err());
+    }
+}
