@@ -82,7 +82,8 @@ pub(super) fn run(args: &BatchArgs) -> anyhow::Result<Code> {
     let refused = args.fail_fast && tasks.iter().any(|task| task.job.is_err());
     let work = |index: usize| {
         let outcome = work(&tasks[index], refused);
-        (outcome.as_ref().is_some_and(|outcome| outcome.code == Code::Done), outcome)
+        // Where nothing is run, all files that are wrong are told.
+        (refused || outcome.as_ref().is_some_and(|outcome| outcome.code == Code::Done), outcome)
     };
     let broken = |index: usize| Some(failed(&tasks[index].label, Code::Check, BROKEN.to_owned(), 0.0));
     let tell = |_: usize, outcome: &Option<Outcome>| outcome.iter().for_each(|outcome| tell(outcome, &args.running));

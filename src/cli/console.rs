@@ -15,7 +15,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Notes on the result itself rather than on how the input was read.
-const WARNINGS: [&str; 11] = [
+const WARNINGS: [&str; 12] = [
     "buried",
     "line-beyond-end",
     "ground-single-precision",
@@ -27,6 +27,7 @@ const WARNINGS: [&str; 11] = [
     "meshes-swapped",
     "lies-double",
     "single-precision",
+    "units-differ",
 ];
 
 /// Time between two frames of the progress display.

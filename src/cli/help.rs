@@ -1,6 +1,7 @@
 //! Longer texts of the help and of the manual pages, and their colours.
 
 use anstyle::{AnsiColor, Style};
+use std::fmt::Write as _;
 
 pub(super) const INPUT: &str = "Input";
 pub(super) const SURFACE: &str = "Surface";
@@ -180,15 +181,19 @@ fn styles() -> clap::builder::Styles {
 /// A longer text whose headings and commands have the styles of the rest of the help.
 fn styled(text: &str) -> clap::builder::StyledStr {
     let styles = styles();
-    let line = |line: &str| {
+    let mut shown = String::new();
+    for (number, line) in text.lines().enumerate() {
+        // The line break stands within the style: what breaks long lines begins to count there.
+        let begin = if number > 0 { "\n" } else { "" };
         let style = if line.ends_with(':') && !line.starts_with(' ') {
             styles.get_header()
         } else if line.starts_with("  slopegen") {
             styles.get_literal()
         } else {
-            return line.to_owned();
+            &Style::new()
         };
-        format!("{style}{line}{style:#}")
-    };
-    text.lines().map(line).collect::<Vec<_>>().join("\n").into()
+        // Writing to a String cannot fail.
+        let _ = write!(shown, "{style}{begin}{line}{style:#}");
+    }
+    shown.into()
 }

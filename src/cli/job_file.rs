@@ -59,7 +59,11 @@ pub(super) fn parse(arguments: &[OsString]) -> Result<(Arguments, Option<JobFile
     let at = arguments.iter().skip(1).position(|argument| argument == BUILD).map_or(arguments.len(), |at| at + 2);
     let (before, after) = arguments.split_at(at.min(arguments.len()));
     let words: Vec<OsString> = before.iter().cloned().chain(file.words()).chain(after.iter().cloned()).collect();
-    let mut parsed = plain(&words).map_err(|error| file.refusal(error))?;
+    let mut parsed = plain(&words).map_err(|error| match plain(arguments) {
+        // What is wrong without the file is told as if there were none.
+        Err(own) if own.kind() == error.kind() => Stop::Parser(own),
+        _ => file.refusal(error),
+    })?;
     if let Command::Build(args) = &mut parsed.command {
         file.complete(args).map_err(|error| Stop::File(error.into()))?;
     }
@@ -101,7 +105,9 @@ fn named(arguments: &[OsString]) -> Option<(PathBuf, Vec<Id>)> {
     let (BUILD, matches) = matches.subcommand()? else { return None };
     let path = PathBuf::from(matches.get_raw(INPUT)?.next()?);
     let command = build();
-    let given = |arg: &&Arg| matches.value_source(arg.get_id().as_str()) == Some(ValueSource::CommandLine);
+    // The line on the command line is the job file itself.
+    let given =
+        |arg: &&Arg| arg.get_id() != INPUT && matches.value_source(arg.get_id().as_str()) == Some(ValueSource::CommandLine);
     is_job(&path).then(|| (path, command.get_arguments().filter(given).map(|arg| arg.get_id().clone()).collect()))
 }
 

@@ -282,7 +282,7 @@ fn change(found: &Between) -> SurfaceChange {
         highest,
         lowest,
         height_max: [highest, lowest].iter().flatten().map(|step| step.height.abs()).fold(0.0, f64::max),
-        height_mean: -found.net() / common,
+        height_mean: (found.fill - found.cut) / common,
         height_mean_absolute: (found.cut + found.fill) / common,
         above: found.fill,
         below: found.cut,

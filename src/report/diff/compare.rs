@@ -26,7 +26,8 @@ pub struct Change {
     pub counts: bool,
 }
 
-/// Everything that differs between two reports, in the order of the first, then of the second.
+/// Everything that differs between two reports: keys in alphabetical order, rows of lists in their own, those of the second alone
+/// last.
 ///
 /// Rows of lists are matched by what they are about (role, line and stations, code, name), others by their position.
 pub fn compare(first: &Value, second: &Value) -> Vec<Change> {

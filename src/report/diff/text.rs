@@ -14,7 +14,7 @@ const KEY: usize = 44;
 /// Sections in the order shown, with the keys at the top of a report they hold. What has no section is in the last one.
 const SECTIONS: [(&str, &[&str]); 8] = [
     ("Inputs", &["inputs", "meshes", "terrain"]),
-    ("Parameters", &["units", "slopes", "extent", "levels", "section_slope"]),
+    ("Parameters", &["units", "slopes", "extent", "section_slope", "levels"]),
     ("Line", &["line"]),
     ("Volumes", &["volumes"]),
     ("Areas and depths", &["areas", "depths", "daylight", "surface", "finished", "pads"]),
@@ -57,25 +57,44 @@ pub fn render_diff(report: &DiffReport) -> String {
 }
 
 fn sections(text: &mut String, changes: &[Change]) {
-    let section = |change: &Change| {
-        let top = change.key.split(['.', '[']).next().unwrap_or("");
-        SECTIONS.iter().position(|(_, keys)| keys.contains(&top)).unwrap_or(SECTIONS.len())
-    };
+    let section =
+        |change: &Change| SECTIONS.iter().position(|(_, keys)| keys.contains(&top(&change.key))).unwrap_or(SECTIONS.len());
+    let levels = changes.iter().filter(|change| top(&change.key) == "levels").count();
     for (index, title) in SECTIONS.iter().map(|(title, _)| *title).chain(["Other"]).enumerate() {
         // Times differ from run to run: nobody wants to read them.
         let of = |change: &&Change| section(change) == index && !change.key.starts_with("timing.");
-        let here: Vec<&Change> = changes.iter().filter(of).collect();
+        let mut here: Vec<&Change> = changes.iter().filter(of).collect();
         if here.is_empty() {
             continue;
         }
+        if let Some((_, keys)) = SECTIONS.get(index) {
+            here.sort_by_key(|change| keys.iter().position(|key| *key == top(&change.key)));
+        }
+        here.retain(|change| !repeats(change, changes));
         let _ = writeln!(text, "\n{title}");
         for change in here.iter().take(SHOWN) {
-            let _ = writeln!(text, "  {:KEY$} {}", printable(&change.key), row(change));
+            let count = if top(&change.key) == "levels" { format!(" and {} more", levels - 1) } else { String::new() };
+            let more = if levels > 1 { count.as_str() } else { "" };
+            let _ = writeln!(text, "  {:KEY$} {}{more}", printable(&change.key), row(change));
         }
         if here.len() > SHOWN {
             let _ = writeln!(text, "  and {} more", here.len() - SHOWN);
         }
     }
+}
+
+/// Key at the top of the report.
+fn top(key: &str) -> &str {
+    key.split(['.', '[']).next().unwrap_or(key)
+}
+
+/// Whether a change says nothing that another does not: slopes have four forms, and levels shift together.
+fn repeats(change: &Change, changes: &[Change]) -> bool {
+    if top(&change.key) == "levels" {
+        return changes.iter().find(|other| top(&other.key) == "levels").is_some_and(|first| first.key != change.key);
+    }
+    let other_form = ["ratio", "percent", "degrees"].iter().find_map(|form| change.key.strip_suffix(form));
+    other_form.is_some_and(|slope| changes.iter().any(|other| other.key == format!("{slope}one_in")))
 }
 
 fn row(change: &Change) -> String {

@@ -1,0 +1,107 @@
+//! `slopegen info`.
+
+use super::Site;
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+use std::fs;
+
+/// The report on a file; it must be readable.
+#[track_caller]
+fn info(site: &Site, file: &str) -> Value {
+    let run = site.run(&format!("info {file} --report i.json --quiet"));
+    assert_eq!((run.code, run.stderr.as_str(), run.stdout.as_str()), (0, "", ""), "{file}");
+    let report: Value = serde_json::from_str(&site.read("i.json")).unwrap();
+    assert_eq!(report["schema"], "slopegen-info/1");
+    report
+}
+
+fn used<'a>(report: &'a Value, purpose: &str) -> &'a Value {
+    report["uses"].as_array().unwrap().iter().find(|row| row["use"] == purpose).unwrap_or_else(|| panic!("{purpose}: {report}"))
+}
+
+#[test]
+fn a_mesh() {
+    // A square of 10 × 10, one half of which rises at 45°: its area is 50 + 50·√2.
+    let site = Site::with("g.obj", "v 0 0 5\nv 10 0 5\nv 10 10 15\nv 0 10 5\nv 0 0 15\nf 1 2 4\nf 2 3 4\n");
+    let report = info(&site, "g.obj");
+    let bytes = fs::read(site.path("g.obj")).unwrap();
+    let sha256: String = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    assert_eq!(report["file"]["sha256"], Value::from(sha256));
+    assert_eq!((&report["file"]["bytes"], &report["file"]["format"]), (&Value::from(bytes.len()), &Value::from("obj")));
+    assert_eq!(report["box"]["min"], serde_json::json!([0.0, 0.0, 5.0]));
+    assert_eq!(report["box"]["max"], serde_json::json!([10.0, 10.0, 15.0]));
+    let surface = &report["surfaces"][0];
+    assert_eq!((&surface["vertices"], &surface["faces"], &surface["triangles"]), (&5.into(), &2.into(), &2.into()));
+    assert_eq!(surface["plan_area"], 100.0);
+    // The second face has the gradient (1, 1).
+    let expected = 50.0 + 50.0 * 3.0_f64.sqrt();
+    assert!((surface["surface_area"].as_f64().unwrap() - expected).abs() < 1e-9, "{surface}");
+    let ground = used(&report, "ground");
+    assert_eq!((&ground["sound"], &ground["notes"][0]["code"]), (&true.into(), &"ground-vertices-unused".into()));
+    let text = site.run("info g.obj");
+    assert!(text.done().contains("\nAs ground: nothing against it\n"), "{}", text.stdout);
+}
+
+#[test]
+fn lines() {
+    let site = Site::new();
+    let report = info(&site, "road.geojson");
+    assert_eq!((report["lines"].as_array().unwrap().len(), &used(&report, "line")["sound"]), (1, &true.into()));
+    assert!(report.get("surfaces").is_none());
+    let report = info(&site, "pit.csv");
+    assert_eq!(report["lines"][0]["vertices"], 14);
+    // Text may be the one or the other.
+    assert_eq!((&used(&report, "line")["readable"], &used(&report, "ground")["readable"]), (&true.into(), &true.into()));
+}
+
+#[test]
+fn defects_are_listed_and_no_failure() {
+    let line = "x,y,z\n0,0,1\n10,0,\n20,5,\n";
+    let site = Site::with("l.csv", line);
+    let report = info(&site, "l.csv");
+    let row = used(&report, "line");
+    assert_eq!((&row["readable"], &row["sound"]), (&true.into(), &false.into()));
+    assert_eq!(report["lines"][0]["without_elevation"], 2);
+    let strict = site.run("info l.csv --strict");
+    assert_eq!(strict.code, 5);
+    assert!(strict.stdout.contains("\nAs line: defects\n"), "{}", strict.stdout);
+    // An overhang: no build takes this ground.
+    fs::write(site.path("g.obj"), "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 9 9 5\nv 1 1 7\nf 1 2 3\nf 1 2 5\n").unwrap();
+    let row = used(&info(&site, "g.obj"), "ground").clone();
+    assert!(row["sound"] == false && row["defects"].as_array().is_some_and(|list| !list.is_empty()), "{row}");
+    assert_eq!(site.run("info pit.csv --strict").code, 0);
+}
+
+#[test]
+fn job_files_and_reports() {
+    let site = Site::with("job.toml", "input = 'road.geojson'\nslope = '1:1.5'\nreport = 'r.json'\n");
+    let report = info(&site, "job.toml");
+    assert_eq!((&report["file"]["format"], &used(&report, "job")["sound"]), (&"job".into(), &true.into()));
+    assert_eq!(report["settings"][1], serde_json::json!({"key": "slope", "values": ["1:1.5"]}));
+    site.run("build job.toml --quiet").done();
+    let report = info(&site, "r.json");
+    assert_eq!((&report["file"]["format"], &report["unit"]), (&"slopegen-report/1".into(), &"m".into()));
+    assert!(report["report"].as_array().unwrap().iter().any(|row| row["key"] == "volumes.fill"), "{report}");
+    // By content, whatever the name.
+    fs::copy(site.path("r.json"), site.path("r.dat")).unwrap();
+    assert_eq!(info(&site, "r.dat")["file"]["format"], "slopegen-report/1");
+    fs::write(site.path("bad.toml"), "input = 'nothing.csv'\nslope = '1:1'\n").unwrap();
+    let defects = used(&info(&site, "bad.toml"), "job")["defects"].clone();
+    assert!(defects[0].as_str().unwrap().contains("--> nothing.csv\n  --> bad.toml, line 1, column 9\n"), "{defects}");
+    fs::write(site.path("bad.toml"), "inputt = 'a'\n").unwrap();
+    assert_eq!(site.run("info bad.toml --strict --quiet").code, 5);
+}
+
+#[test]
+fn what_cannot_be_read() {
+    let site = Site::with("x.obj", "v 0 0 0\nv 1 x 0\nf 1 2 3\n");
+    for file in ["nothing.csv", "x.obj", "."] {
+        let run = site.run(&format!("info {file} --report i.json"));
+        assert_eq!((run.code, run.stdout.as_str()), (3, ""), "{file}: {}", run.stderr);
+        assert!(run.stderr.starts_with("error: "), "{}", run.stderr);
+    }
+    fs::write(site.path("noise"), [0_u8, 159, 146, 150]).unwrap();
+    assert_eq!(site.run("info noise").code, 3);
+    assert_eq!(site.run("info road.geojson --csv-order q").code, 2);
+    assert!(!site.path("i.json").exists());
+}
