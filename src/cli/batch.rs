@@ -14,6 +14,7 @@ use crate::surface::Watch;
 use crate::write::{Clash, Footprint, Outputs, Target, first_clash};
 use clap::Args;
 use std::ffi::OsString;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
@@ -97,7 +98,7 @@ pub(super) fn run(args: &BatchArgs) -> anyhow::Result<Code> {
         outputs.write(index, |out| format.write_plain(out, &report, || render_batch(&report))).map_err(Error::from)?;
     }
     outputs.commit().map_err(Error::from)?;
-    super::show(screen, |out| Ok(out.extend_from_slice(render_batch(&report).as_bytes())))?;
+    super::show(screen, |out| Ok(out.write_all(render_batch(&report).as_bytes())?))?;
     Ok(code)
 }
 

@@ -12,6 +12,7 @@ use crate::read::terrain::TerrainOptions;
 use crate::report::render_diff;
 use clap::Args;
 use std::ffi::OsString;
+use std::io::Write as _;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -59,7 +60,7 @@ pub(super) fn run(args: &DiffArgs) -> anyhow::Result<Code> {
     let console = Console::new(&args.running, to_terminal);
     let differed = pipeline::diff(&job, &console)?;
     console.finish();
-    super::show(screen, |out| Ok(out.extend_from_slice(render_diff(&differed.report).as_bytes())))?;
+    super::show(screen, |out| Ok(out.write_all(render_diff(&differed.report).as_bytes())?))?;
     differed.written.iter().for_each(|target| console.wrote(target, ""));
     match Beyond::of(&differed.report) {
         Some(beyond) => Err(beyond.into()),

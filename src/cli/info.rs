@@ -12,6 +12,7 @@ use crate::report::info::{InfoReport, Setting, render_info};
 use crate::write::{Outputs, Target};
 use clap::Args;
 use std::ffi::OsString;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -60,7 +61,7 @@ pub(super) fn run(args: &InfoArgs) -> anyhow::Result<Code> {
     }
     outputs.commit().map_err(pipeline::Error::from)?;
     console.finish();
-    super::show(screen, |out| Ok(out.extend_from_slice(render_info(&report).as_bytes())))?;
+    super::show(screen, |out| Ok(out.write_all(render_info(&report).as_bytes())?))?;
     targets.iter().filter(|target| !target.is_stream()).for_each(|target| console.wrote(target, ""));
     Ok(if args.strict && !report.is_sound() { Code::Check } else { Code::Done })
 }

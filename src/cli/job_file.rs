@@ -75,7 +75,8 @@ pub(super) fn parse(arguments: &[OsString]) -> Result<(Arguments, Option<JobFile
 /// # Errors
 /// What is wrong with it, or that it cannot be read.
 pub(super) fn load(path: &Path) -> anyhow::Result<(BuildArgs, JobFile)> {
-    let words = [OsStr::new("slopegen"), OsStr::new(BUILD), path.as_os_str()].map(OsStr::to_owned);
+    // A name may begin with a hyphen.
+    let words = [OsStr::new("slopegen"), OsStr::new(BUILD), OsStr::new("--"), path.as_os_str()].map(OsStr::to_owned);
     match parse(&words) {
         Ok((Arguments { command: Command::Build(args), .. }, Some(file))) => Ok((*args, file)),
         Ok(_) => Err(UsageErrors::one(format!(

@@ -77,7 +77,7 @@ pub fn run_batch<R: Send>(
     };
     std::thread::scope(|scope| {
         for _ in 1..batch.at_once.min(count) {
-            scope.spawn(&one_by_one);
+            scope.spawn(one_by_one);
         }
         one_by_one();
     });
@@ -97,7 +97,7 @@ mod tests {
             // The first jobs take longest.
             let work = |i: usize| {
                 std::thread::sleep(Duration::from_millis(20 - i as u64));
-                (i % 3 != 0, i * i)
+                (!i.is_multiple_of(3), i * i)
             };
             let results = run_batch(20, batch, work, |_| 0, |i, r| told.push((i, *r)));
             assert_eq!(told, (0..20).map(|i| (i, i * i)).collect::<Vec<_>>());

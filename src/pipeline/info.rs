@@ -6,7 +6,7 @@ use crate::kernel::sum::Sum;
 use crate::model::{Defects, LengthUnit, Note, Terrain};
 use crate::read::terrain::RawTerrain;
 use crate::read::{Document, Held, Inventory, RawInput, RawShape, ReadError, ReadOptions, inventory, read_document};
-use crate::report::info::{BoxFigures, FileFigures, INFO_SCHEMA, InfoReport, LineRow, Setting, SurfaceRow, UseRow};
+use crate::report::info::{BoxFigures, FileFigures, INFO_SCHEMA, InfoReport, LineRow, PartRow, Setting, SurfaceRow, UseRow};
 use crate::report::{Tool, Warning};
 use crate::{terrain, validate};
 use serde_json::Value;
@@ -96,11 +96,12 @@ fn hold(held: &Held, report: &mut InfoReport) {
             z_min: z.map(|[lo, _]| lo),
             z_max: z.map(|[_, hi]| hi),
         }),
-        Held::Surface { name, vertices, faces } => report.surfaces.push(SurfaceRow {
+        Held::Surface { name, vertices, faces, parts } => report.surfaces.push(SurfaceRow {
             name: name.clone(),
             kind: "mesh",
             vertices: *vertices,
             faces: Some(*faces),
+            parts: parts.iter().map(|(name, faces)| PartRow { name: name.clone(), faces: *faces }).collect(),
             ..SurfaceRow::default()
         }),
         Held::Points { name, count } => {

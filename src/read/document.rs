@@ -3,6 +3,7 @@
 use super::ReadError;
 use super::terrain::refuse;
 use serde_json::Value;
+use std::io::Read as _;
 use std::path::Path;
 
 /// What the schemas of all reports begin with.
@@ -29,8 +30,25 @@ pub struct Document {
 /// [`ReadError`] when the file cannot be opened, or is cut off or changed so that it is no JSON any more.
 pub fn read_document(path: &Path) -> Result<Option<Document>, ReadError> {
     let label = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|cause| ReadError::Open { label: label.clone(), cause })?;
+    let open = |cause| ReadError::Open { label: label.clone(), cause };
+    let mut file = std::fs::File::open(path).map_err(open)?;
+    // Ground may be large, and is looked at no further.
+    let mut bytes = Vec::new();
+    file.by_ref().take(HEAD as u64).read_to_end(&mut bytes).map_err(open)?;
+    if !may_be_report(&bytes) {
+        return Ok(None);
+    }
+    file.read_to_end(&mut bytes).map_err(open)?;
     parse_document(&label, &bytes)
+}
+
+/// Bytes at the beginning that have the schema of a report: it is the first key.
+const HEAD: usize = 200;
+
+fn may_be_report(bytes: &[u8]) -> bool {
+    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(HEAD)]);
+    let begins = head.trim_start_matches('\u{feff}').trim_start().starts_with('{');
+    begins && head.contains("\"schema\"") && head.contains(FAMILY)
 }
 
 /// Reads a report from bytes; `label` names them in messages.
@@ -38,11 +56,7 @@ pub fn read_document(path: &Path) -> Result<Option<Document>, ReadError> {
 /// # Errors
 /// As [`read_document`].
 pub fn parse_document(label: &str, bytes: &[u8]) -> Result<Option<Document>, ReadError> {
-    /// The schema is the first key.
-    const HEAD: usize = 200;
-    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(HEAD)]);
-    let begins = head.trim_start_matches('\u{feff}').trim_start().starts_with('{');
-    if !begins || !head.contains("\"schema\"") || !head.contains(FAMILY) {
+    if !may_be_report(bytes) {
         return Ok(None);
     }
     let bytes_of_json = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);

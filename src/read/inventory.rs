@@ -1,6 +1,6 @@
 //! Everything a file holds, whatever it would be used for.
 
-use super::terrain::{RawFaces, RawGround, RawTerrain, TerrainOptions, kind, read_terrain};
+use super::terrain::{RawGround, RawTerrain, TerrainOptions, kind, read_mesh, read_terrain};
 use super::{InputFormat, RawInput, RawLine, RawShape, ReadError, ReadOptions, Source, read_line};
 use glam::DVec3;
 use std::path::Path;
@@ -33,6 +33,8 @@ pub enum Held {
         vertices: usize,
         /// Its faces.
         faces: usize,
+        /// Its groups or parts, each with the number of its faces; none if it has no groups.
+        parts: Vec<(String, usize)>,
     },
     /// Points without faces.
     Points {
@@ -103,6 +105,9 @@ pub fn inventory(path: &Path, options: &ReadOptions) -> Result<Inventory, ReadEr
     let raw_ground = ground.as_ref().and_then(|ground| ground.as_ref().ok());
     let mut held: Vec<Held> = raw_line.into_iter().flat_map(|line| line.lines.iter().map(held_line)).collect();
     held.extend(raw_ground.map(|ground| held_ground(&ground.ground)));
+    if let (InputFormat::Obj | InputFormat::Ply, Some(Held::Surface { parts, .. })) = (format, held.last_mut()) {
+        *parts = groups(path, format)?;
+    }
     let mut bounds = None;
     raw_line.into_iter().for_each(|line| around_line(line, &mut bounds));
     raw_ground.into_iter().for_each(|ground| around_ground(&ground.ground, &mut bounds));
@@ -128,6 +133,16 @@ fn by_content(path: &Path) -> Result<InputFormat, ReadError> {
     }
 }
 
+/// Groups of a mesh in the order of their first faces.
+fn groups(path: &Path, format: InputFormat) -> Result<Vec<(String, usize)>, ReadError> {
+    let mesh = read_mesh(path, Some(format))?;
+    let mut parts: Vec<(String, usize)> = mesh.names.into_iter().map(|name| (name, 0)).collect();
+    for group in mesh.groups {
+        parts.get_mut(group as usize).into_iter().for_each(|(_, faces)| *faces += 1);
+    }
+    Ok(parts)
+}
+
 fn held_line(line: &RawLine) -> Held {
     let plan = |i: usize| glam::DVec2::new(line.vertices[i].x, line.vertices[i].y);
     let count = line.vertices.len();
@@ -149,7 +164,7 @@ fn held_line(line: &RawLine) -> Held {
 fn held_ground(ground: &RawGround) -> Held {
     match ground {
         RawGround::Mesh { vertices, faces } => {
-            Held::Surface { name: None, vertices: vertices.len(), faces: RawFaces::len(faces) }
+            Held::Surface { name: None, vertices: vertices.len(), faces: faces.len(), parts: Vec::new() }
         }
         RawGround::Points(points) => Held::Points { name: None, count: points.len() },
         RawGround::Grid(grid) => Held::Grid {
@@ -186,49 +201,5 @@ fn around_ground(ground: &RawGround, bounds: &mut Option<[DVec3; 2]>) {
                 grow(bounds, far.extend(*z));
             }
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn of(name: &str, content: &str) -> Result<Inventory, ReadError> {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join(name);
-        std::fs::write(&path, content).unwrap();
-        inventory(&path, &ReadOptions::default())
-    }
-
-    #[test]
-    fn lines_of_a_file() {
-        let found = of("a.geojson", r#"{"type":"LineString","coordinates":[[0,0,5],[3,4,7],[3,4,6]]}"#).unwrap();
-        assert!(found.ground.is_none() && found.line.as_ref().is_some_and(Result::is_ok));
-        let [Held::Line { vertices: 3, without_elevation: 0, length, closed: false, z: Some(z), .. }] = &found.held[..] else {
-            panic!("{:?}", found.held)
-        };
-        assert_eq!((*length, *z), (5.0, [5.0, 7.0]));
-        assert_eq!(found.bounds, Some([DVec3::new(0.0, 0.0, 5.0), DVec3::new(3.0, 4.0, 7.0)]));
-    }
-
-    #[test]
-    fn text_may_be_line_and_ground() {
-        let found = of("a.csv", "x,y,z\n0,0,1\n10,0,2\n0,10,3\n").unwrap();
-        assert!(matches!(found.held[..], [Held::Line { vertices: 3, .. }, Held::Points { count: 3, .. }]), "{:?}", found.held);
-    }
-
-    #[test]
-    fn a_grid() {
-        let text = "ncols 3\nnrows 2\nxllcenter 100\nyllcenter 200\ncellsize 5\nNODATA_value -9999\n1 2 3\n4 -9999 6\n";
-        let found = of("a.asc", text).unwrap();
-        assert_eq!(found.held, [Held::Grid { columns: 3, rows: 2, step: [5.0, 5.0], missing: 1 }]);
-        assert_eq!(found.bounds, Some([DVec3::new(100.0, 200.0, 1.0), DVec3::new(110.0, 205.0, 6.0)]));
-    }
-
-    #[test]
-    fn by_content_where_the_name_says_nothing() {
-        assert_eq!(of("a.dat", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap().format, InputFormat::Obj);
-        assert_eq!(of("a", " {\"type\":\"Point\"}").unwrap().format, InputFormat::GeoJson);
-        assert!(of("a.dat", "nothing known\n").is_err());
     }
 }

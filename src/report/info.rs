@@ -110,6 +110,9 @@ pub struct SurfaceRow {
     /// Faces as given, of a mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub faces: Option<usize>,
+    /// Groups or parts of a mesh, each with the number of its faces.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<PartRow>,
     /// Nodes from west to east, of a grid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub columns: Option<usize>,
@@ -128,6 +131,15 @@ pub struct SurfaceRow {
     /// Area of the triangles as they lie.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surface_area: Option<f64>,
+}
+
+/// A group or part of a mesh.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PartRow {
+    /// Its name.
+    pub name: String,
+    /// Its faces.
+    pub faces: usize,
 }
 
 /// A word or figure with its name.
@@ -255,6 +267,10 @@ fn surfaces(text: &mut String, surfaces: &[SurfaceRow]) {
         said.extend(row.step.map(|[x, y]| if x == y { format!("step {x}") } else { format!("step {x}, {y}") }));
         said.extend(row.triangles.map(|triangles| format!("{triangles} triangles")));
         let _ = writeln!(text, "  {name:NAME$}{}", said.join(", "));
+        for part in row.parts.iter().take(SHOWN) {
+            let name = format!("  {}", printable(&part.name));
+            let _ = writeln!(text, "  {name:NAME$}{} faces", part.faces);
+        }
         if let Some((plan, surface)) = row.plan_area.zip(row.surface_area) {
             let _ = writeln!(text, "  {:NAME$}{plan:.3} in plan, {surface:.3} as it lies", "  area");
         }

@@ -75,8 +75,11 @@ fn of_path(path: &Path) -> Option<Identity> {
 mod tests {
     use super::*;
 
-    fn job(outputs: &[PathBuf], inputs: &[PathBuf]) -> Footprint {
-        Footprint { outputs: outputs.iter().cloned().map(Target::File).collect(), inputs: inputs.to_vec() }
+    fn job(outputs: &[&PathBuf], inputs: &[&PathBuf]) -> Footprint {
+        Footprint {
+            outputs: outputs.iter().map(|path| Target::File((*path).clone())).collect(),
+            inputs: inputs.iter().map(|path| (*path).clone()).collect(),
+        }
     }
 
     #[test]
@@ -84,7 +87,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let (a, b) = (folder.path().join("a.obj"), folder.path().join("b.obj"));
         let detour = folder.path().join(".").join("a.obj");
-        let jobs = [job(&[b.clone()], &[]), job(&[a.clone()], &[]), job(&[detour.clone()], &[])];
+        let jobs = [job(&[&b], &[]), job(&[&a], &[]), job(&[&detour], &[])];
         // Neither file exists yet.
         let expected = Clash::Outputs { first: (1, Target::File(a.clone())), second: (2, Target::File(detour.clone())) };
         assert_eq!(first_clash(&jobs), Some(expected.clone()));
@@ -92,11 +95,11 @@ mod tests {
         assert_eq!(first_clash(&jobs), Some(expected));
         assert_eq!(first_clash(&jobs[..2]), None);
         // Within one job the outputs themselves are checked when they are opened.
-        assert_eq!(first_clash(&[job(&[a.clone(), detour], &[])]), None);
-        let jobs = [job(&[], &[a.clone()]), job(&[a.clone()], &[])];
+        assert_eq!(first_clash(&[job(&[&a, &detour], &[])]), None);
+        let jobs = [job(&[], &[&a]), job(&[&a], &[])];
         let expected = Clash::Input { writer: (1, Target::File(a.clone())), reader: (0, a.clone()) };
         assert_eq!(first_clash(&jobs), Some(expected));
-        assert_eq!(first_clash(&[job(&[b.clone()], &[a.clone()]), job(&[], &[a])]), None);
+        assert_eq!(first_clash(&[job(&[&b], &[&a]), job(&[], &[&a])]), None);
     }
 
     #[cfg(unix)]
@@ -105,9 +108,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let (a, link) = (folder.path().join("a.obj"), folder.path().join("link.obj"));
         std::os::unix::fs::symlink(&a, &link).unwrap();
-        assert!(first_clash(&[job(&[a], &[]), job(&[link], &[])]).is_some());
+        assert!(first_clash(&[job(&[&a], &[]), job(&[&link], &[])]).is_some());
         let null = PathBuf::from("/dev/null");
-        assert_eq!(first_clash(&[job(&[null.clone()], &[]), job(&[null], &[])]), None);
-        assert_eq!(first_clash(&[job(&["/nowhere/a".into()], &[]), job(&["/nowhere/a".into()], &[])]), None);
+        assert_eq!(first_clash(&[job(&[&null], &[]), job(&[&null], &[])]), None);
+        let nowhere = PathBuf::from("/nowhere/a");
+        assert_eq!(first_clash(&[job(&[&nowhere], &[]), job(&[&nowhere], &[])]), None);
     }
 }

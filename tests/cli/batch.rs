@@ -102,6 +102,11 @@ fn a_list_of_jobs() {
     fs::write(site.path("jobs/list.txt"), "\u{feff}# two jobs\na.toml\n\n  b.toml # the road\r\n").unwrap();
     let run = site.run("batch --list jobs/list.txt");
     assert!(run.done().ends_with("\n2 done, 0 failed\n"), "{}", run.stdout);
+    // Names that look like options.
+    fs::copy(site.path("jobs/b.toml"), site.path("-b.toml")).unwrap();
+    fs::write(site.path("list.txt"), "-b.toml\n").unwrap();
+    let run = site.run("batch --list list.txt");
+    assert!(run.code == 3 && run.stderr.contains("--> ../road.geojson\n  --> -b.toml, line 1, column 9\n"), "{run:?}");
     fs::write(site.path("empty.txt"), "# none\n").unwrap();
     site.run("batch --list empty.txt")
         .refused(2, "error: there are no job files in this list\n  --> empty.txt\n   = help: name one job file a line");

@@ -49,6 +49,7 @@ fn messages_have_them_where_they_are_forced() {
 
 /// What the program writes to a pseudo terminal; `None` where there is no `script` to make one.
 #[cfg(target_os = "linux")]
+#[allow(clippy::print_stderr, reason = "a test that is skipped says so")]
 fn on_terminal(site: &Site, arguments: &str, variables: &str) -> Option<String> {
     let command = format!("env -u NO_COLOR {variables} {} {arguments}", env!("CARGO_BIN_EXE_slopegen"));
     let run = Command::new("script")

@@ -1,8 +1,10 @@
 //! `slopegen info`.
 
 use super::Site;
+use glam::DVec3;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
+use slopegen::read::{Held, InputFormat, Inventory, ReadError, ReadOptions, inventory};
 use std::fs;
 
 /// The report on a file; it must be readable.
@@ -38,6 +40,11 @@ fn a_mesh() {
     assert!((surface["surface_area"].as_f64().unwrap() - expected).abs() < 1e-9, "{surface}");
     let ground = used(&report, "ground");
     assert_eq!((&ground["sound"], &ground["notes"][0]["code"]), (&true.into(), &"ground-vertices-unused".into()));
+    assert!(surface.get("parts").is_none());
+    site.run("build pad.geojson --slope 1:2 -o pad.ply --quiet").done();
+    let parts = info(&site, "pad.ply")["surfaces"][0]["parts"].clone();
+    let names: Vec<&str> = parts.as_array().unwrap().iter().filter_map(|part| part["name"].as_str()).collect();
+    assert!(names.contains(&"platform") && names.contains(&"fill_slope"), "{parts}");
     let text = site.run("info g.obj");
     assert!(text.done().contains("\nAs ground: nothing against it\n"), "{}", text.stdout);
 }
@@ -104,4 +111,42 @@ fn what_cannot_be_read() {
     assert_eq!(site.run("info noise").code, 3);
     assert_eq!(site.run("info road.geojson --csv-order q").code, 2);
     assert!(!site.path("i.json").exists());
+}
+
+/// The inventory of a file as the library gives it.
+fn of(name: &str, content: &str) -> Result<Inventory, ReadError> {
+    let site = Site::with(name, content);
+    inventory(&site.path(name), &ReadOptions::default())
+}
+
+#[test]
+fn held_lines() {
+    let found = of("a.geojson", r#"{"type":"LineString","coordinates":[[0,0,5],[3,4,7],[3,4,6]]}"#).unwrap();
+    assert!(found.ground.is_none() && found.line.as_ref().is_some_and(Result::is_ok));
+    let [Held::Line { vertices: 3, without_elevation: 0, length, closed: false, z: Some(z), .. }] = &found.held[..] else {
+        panic!("{:?}", found.held)
+    };
+    assert_eq!((*length, *z), (5.0, [5.0, 7.0]));
+    assert_eq!(found.bounds, Some([DVec3::new(0.0, 0.0, 5.0), DVec3::new(3.0, 4.0, 7.0)]));
+}
+
+#[test]
+fn held_text_may_be_line_and_ground() {
+    let found = of("a.csv", "x,y,z\n0,0,1\n10,0,2\n0,10,3\n").unwrap();
+    assert!(matches!(found.held[..], [Held::Line { vertices: 3, .. }, Held::Points { count: 3, .. }]), "{:?}", found.held);
+}
+
+#[test]
+fn a_held_grid() {
+    let text = "ncols 3\nnrows 2\nxllcenter 100\nyllcenter 200\ncellsize 5\nNODATA_value -9999\n1 2 3\n4 -9999 6\n";
+    let found = of("a.asc", text).unwrap();
+    assert_eq!(found.held, [Held::Grid { columns: 3, rows: 2, step: [5.0, 5.0], missing: 1 }]);
+    assert_eq!(found.bounds, Some([DVec3::new(100.0, 200.0, 1.0), DVec3::new(110.0, 205.0, 6.0)]));
+}
+
+#[test]
+fn by_content_where_the_name_says_nothing() {
+    assert_eq!(of("a.dat", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap().format, InputFormat::Obj);
+    assert_eq!(of("a", " {\"type\":\"Point\"}").unwrap().format, InputFormat::GeoJson);
+    assert!(of("a.dat", "nothing known\n").is_err());
 }
