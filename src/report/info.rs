@@ -134,7 +134,7 @@ pub struct SurfaceRow {
 }
 
 /// A group or part of a mesh.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct PartRow {
     /// Its name.
     pub name: String,
