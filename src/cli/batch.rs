@@ -72,11 +72,10 @@ pub(super) fn run(args: &BatchArgs) -> anyhow::Result<Code> {
     let tasks: Vec<Task> = paths(args)?.iter().map(|path| task(path)).collect();
     apart(&tasks, reports.iter().map(|(target, _)| target))?;
     super::start(&args.running)?;
-    let targets: Vec<Target> = reports.iter().map(|(target, _)| target.clone()).collect();
-    let screen = Screen::take(&mut reports, std::iter::empty());
-    let kept: Vec<Target> = targets.into_iter().filter(|target| screen.is_none() || *target != Target::Stdout).collect();
+    let all = console::targets(&reports);
+    let screen = Screen::take(&mut reports, &all);
     let jobs: Vec<PathBuf> = tasks.iter().map(|task| PathBuf::from(&task.label)).collect();
-    let mut outputs = Outputs::open(&kept, &jobs).map_err(Error::from)?;
+    let mut outputs = Outputs::open(&console::targets(&reports), &jobs).map_err(Error::from)?;
 
     let begun = Instant::now();
     let batch = Batch { at_once: at_once.min(tasks.len()), fail_fast: args.fail_fast };
@@ -136,7 +135,7 @@ fn paths(args: &BatchArgs) -> anyhow::Result<Vec<PathBuf>> {
         paths.append(&mut jobs);
     }
     if let Some(list) = &args.list {
-        let text = std::fs::read(list).map_err(unreadable(list))?;
+        let text = job_file::read_short(list)?;
         let text = String::from_utf8_lossy(&text);
         let folder = list.parent().unwrap_or(Path::new(""));
         let name = |line: &str| line.split('#').next().unwrap_or("").trim().to_owned();

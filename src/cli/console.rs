@@ -43,15 +43,12 @@ fn say(text: &str) {
 pub(super) struct Screen(());
 
 impl Screen {
-    /// Takes the text report out of the outputs of a job, if it goes to a terminal with colours. `others`: the other outputs, one
-    /// of which may go there, too; that is refused as ever.
-    pub(super) fn take<'a>(
-        reports: &mut Vec<(Target, ReportFormat)>,
-        mut others: impl Iterator<Item = &'a Target>,
-    ) -> Option<Self> {
+    /// Takes the text report out of the outputs of a job, if it goes to a terminal with colours. `all`: every output of the job;
+    /// if another one goes there as well, that is refused as ever.
+    pub(super) fn take(reports: &mut Vec<(Target, ReportFormat)>, all: &[Target]) -> Option<Self> {
         let is_text = |(target, format): &(Target, ReportFormat)| *target == Target::Stdout && *format == ReportFormat::Text;
-        let stdout = reports.iter().filter(|(target, _)| *target == Target::Stdout).count();
-        if stdout != 1 || !reports.iter().any(is_text) || others.any(|other| *other == Target::Stdout) || !has_colours() {
+        let alone = all.iter().filter(|target| **target == Target::Stdout).count() == 1;
+        if !alone || !reports.iter().any(is_text) || !has_colours() {
             return None;
         }
         reports.retain(|report| !is_text(report));
@@ -65,6 +62,11 @@ impl Screen {
         let _ = write!(std::io::stdout().lock(), "{}", paint::report(&String::from_utf8_lossy(&bytes)));
         Ok(())
     }
+}
+
+/// Where reports go.
+pub(super) fn targets(reports: &[(Target, ReportFormat)]) -> Vec<Target> {
+    reports.iter().map(|(target, _)| target.clone()).collect()
 }
 
 /// Whether standard output is a terminal that is to have colours.

@@ -56,7 +56,8 @@ pub(super) fn run(args: &DiffArgs) -> anyhow::Result<Code> {
     let mut job = job(args)?;
     super::start(&args.running)?;
     let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
-    let screen = Screen::take(&mut job.reports, std::iter::empty());
+    let all = console::targets(&job.reports);
+    let screen = Screen::take(&mut job.reports, &all);
     let console = Console::new(&args.running, to_terminal);
     let differed = pipeline::diff(&job, &console)?;
     console.finish();

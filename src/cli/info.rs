@@ -9,7 +9,7 @@ use super::job_file;
 use crate::pipeline;
 use crate::read::{Pick, ReadOptions};
 use crate::report::info::{InfoReport, Setting, render_info};
-use crate::write::{Outputs, Target};
+use crate::write::Outputs;
 use clap::Args;
 use std::ffi::OsString;
 use std::io::Write as _;
@@ -46,8 +46,9 @@ pub(super) fn run(args: &InfoArgs) -> anyhow::Result<Code> {
     let mut reports = checks.finish(Some(reports))?;
     super::start(&args.running)?;
     let to_terminal = reports.iter().any(|(target, _)| console::is_terminal(target));
-    let screen = Screen::take(&mut reports, std::iter::empty());
-    let targets: Vec<Target> = reports.iter().map(|(target, _)| target.clone()).collect();
+    let all = console::targets(&reports);
+    let screen = Screen::take(&mut reports, &all);
+    let targets = console::targets(&reports);
     let mut outputs = Outputs::open(&targets, std::slice::from_ref(&args.file)).map_err(pipeline::Error::from)?;
     let console = Console::new(&args.running, to_terminal);
     let pick = Pick { surface: args.surface.clone(), ..Pick::default() };
@@ -68,6 +69,7 @@ pub(super) fn run(args: &InfoArgs) -> anyhow::Result<Code> {
 
 /// A job file: its options, what is wrong with them, and which of its inputs are not there.
 fn job(path: &Path) -> anyhow::Result<InfoReport> {
+    let bytes = job_file::read_short(path)?;
     let checked = job_file::load(path).and_then(|(args, file)| {
         let job = job::build_job(&args).map_err(|errors| UsageErrors::one(file.locate(&errors.to_string())))?;
         Ok((job, file))
@@ -85,5 +87,5 @@ fn job(path: &Path) -> anyhow::Result<InfoReport> {
         Err(error) if error.is::<UsageErrors>() => (Vec::new(), vec![error.to_string()]),
         Err(error) => return Err(error),
     };
-    Ok(pipeline::job_info(path, settings, defects)?)
+    Ok(pipeline::job_info(path, &bytes, settings, defects))
 }

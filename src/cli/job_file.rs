@@ -15,6 +15,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, CommandFactory as _, FromArgMatches as _, Id};
 use entry::{Entry, Place};
 use std::ffi::{OsStr, OsString};
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 /// Name of the command whose options a job file holds.
@@ -112,6 +113,23 @@ fn named(arguments: &[OsString]) -> Option<(PathBuf, Vec<Id>)> {
     is_job(&path).then(|| (path, command.get_arguments().filter(given).map(|arg| arg.get_id().clone()).collect()))
 }
 
+/// Reads a file that is typed by hand.
+///
+/// # Errors
+/// [`ReadError::Open`], or that it has more than [`LONGEST`] bytes: it is something else then.
+pub(super) fn read_short(path: &Path) -> anyhow::Result<Vec<u8>> {
+    let label = path.display().to_string();
+    let open = |cause| Error::from(ReadError::Open { label: label.clone(), cause });
+    let mut bytes = Vec::new();
+    std::fs::File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_end(&mut bytes)).map_err(open)?;
+    if bytes.len() as u64 > LONGEST {
+        let (figures, help) = (format!("it may have {LONGEST} bytes"), "give a file of options, or a list of such files");
+        let message = format!("the file is too long for a job\n  --> {label}\n   = {figures}\n   = help: {help}");
+        return Err(UsageErrors::one(message).into());
+    }
+    Ok(bytes)
+}
+
 /// The parser of `build` as declared.
 fn build() -> clap::Command {
     let command = Arguments::command();
@@ -128,13 +146,7 @@ impl JobFile {
     /// Reads a job file. `given`: the arguments on the command line.
     fn read(path: &Path, given: Vec<Id>) -> anyhow::Result<Self> {
         let label = path.display().to_string();
-        let open = |cause| Error::from(ReadError::Open { label: label.clone(), cause });
-        if std::fs::metadata(path).map_err(open)?.len() > LONGEST {
-            let help = "give a file of options such as `slope = \"1:1.5\"`";
-            let message = format!("the job file is too long\n  --> {label}\n   = it may have {LONGEST} bytes\n   = help: {help}");
-            return Err(UsageErrors::one(message).into());
-        }
-        let bytes = std::fs::read(path).map_err(open)?;
+        let bytes = read_short(path)?;
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         Ok(Self::parse(label, folder, &bytes, given)?)
     }

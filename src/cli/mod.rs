@@ -71,8 +71,8 @@ fn build(wanted: &args::BuildArgs) -> anyhow::Result<Code> {
     let mut job = job::build_job(wanted)?;
     start(&wanted.running)?;
     let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
-    let others = job.meshes.iter().chain(&job.finished).map(|(target, _)| target).chain(&job.lines);
-    let screen = Screen::take(&mut job.reports, others);
+    let all = job.footprint().outputs;
+    let screen = Screen::take(&mut job.reports, &all);
     let console = Console::new(&wanted.running, to_terminal);
     let built = crate::pipeline::build(&job, &console)?;
     console.finish();
@@ -90,7 +90,8 @@ fn check(wanted: &check::CheckArgs) -> anyhow::Result<Code> {
     start(&wanted.running)?;
     // The report shows the notes on the same terminal.
     let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
-    let screen = Screen::take(&mut job.reports, std::iter::empty());
+    let all = console::targets(&job.reports);
+    let screen = Screen::take(&mut job.reports, &all);
     let console = Console::new(&wanted.running, to_terminal);
     let looked = crate::pipeline::check(&job, &console)?;
     console.finish();
@@ -106,7 +107,8 @@ fn volume(wanted: &args::VolumeArgs) -> anyhow::Result<Code> {
     let mut job = job::volume_job(wanted)?;
     start(&wanted.running)?;
     let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
-    let screen = Screen::take(&mut job.reports, std::iter::empty());
+    let all = console::targets(&job.reports);
+    let screen = Screen::take(&mut job.reports, &all);
     let console = Console::new(&wanted.running, to_terminal);
     let compared = crate::pipeline::volume(&job, &console)?;
     console.finish();

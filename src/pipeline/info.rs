@@ -62,7 +62,7 @@ pub fn info(path: &Path, options: &ReadOptions, observer: &dyn Observer) -> Resu
 }
 
 /// A report about nothing yet.
-pub fn empty(path: &Path) -> InfoReport {
+fn empty(path: &Path) -> InfoReport {
     let file = FileFigures { path: path.display().to_string(), format: String::new(), bytes: 0, sha256: None };
     InfoReport {
         schema: INFO_SCHEMA,
@@ -226,16 +226,10 @@ fn of_document(path: &Path, document: &Document) -> InfoReport {
 }
 
 /// A job file as its reader tells of it; `defects`: what is wrong with it.
-pub fn job_info(path: &Path, settings: Vec<Setting>, defects: Vec<String>) -> Result<InfoReport, Error> {
-    let label = path.display().to_string();
-    let open = |cause| ReadError::Open { label: label.clone(), cause };
-    let bytes = std::fs::read(path).map_err(open)?;
-    let sha256 = crate::read::sha256(&bytes);
-    let sound = defects.is_empty();
-    Ok(InfoReport {
-        file: FileFigures { path: label.clone(), format: "job".to_owned(), bytes: bytes.len() as u64, sha256: Some(sha256) },
-        settings,
-        uses: vec![UseRow { purpose: "job", sound, readable: true, defects, notes: Vec::new() }],
-        ..empty(path)
-    })
+pub fn job_info(path: &Path, bytes: &[u8], settings: Vec<Setting>, defects: Vec<String>) -> InfoReport {
+    let (sha256, sound) = (crate::read::sha256(bytes), defects.is_empty());
+    let path_given = path.display().to_string();
+    let file = FileFigures { path: path_given, format: "job".to_owned(), bytes: bytes.len() as u64, sha256: Some(sha256) };
+    let uses = vec![UseRow { purpose: "job", sound, readable: true, defects, notes: Vec::new() }];
+    InfoReport { file, settings, uses, ..empty(path) }
 }

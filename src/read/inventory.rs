@@ -3,6 +3,7 @@
 use super::terrain::{RawGround, RawTerrain, TerrainOptions, kind, read_mesh, read_terrain};
 use super::{InputFormat, RawInput, RawLine, RawShape, ReadError, ReadOptions, Source, read_line};
 use glam::DVec3;
+use std::io::Read as _;
 use std::path::Path;
 
 /// One thing a file holds. Coordinates and lengths are in the unit of the file.
@@ -123,9 +124,14 @@ fn uses(format: InputFormat) -> [bool; 2] {
     }
 }
 
+/// Bytes that tell what a file is: more than any format needs.
+const HEAD: u64 = 1 << 16;
+
 fn by_content(path: &Path) -> Result<InputFormat, ReadError> {
     let label = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|cause| ReadError::Open { label: label.clone(), cause })?;
+    let mut bytes = Vec::new();
+    let read = std::fs::File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut bytes));
+    read.map_err(|cause| ReadError::Open { label: label.clone(), cause })?;
     let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&bytes);
     match text.iter().find(|b| !b.is_ascii_whitespace()) {
         Some(b'{') => Ok(InputFormat::GeoJson),

@@ -158,7 +158,21 @@ fn mistakes_on_the_command_line() {
     assert_eq!(site.run("build nothing.toml").code, 3);
     assert!(site.run("build site/job.toml --help").done().contains("Usage: slopegen build"));
     fs::write(site.path("long.toml"), " ".repeat(2 << 20)).unwrap();
-    assert!(site.run("build long.toml").stderr.starts_with("error: the job file is too long\n"));
+    assert!(site.run("build long.toml").stderr.starts_with("error: the file is too long for a job\n"));
     fs::create_dir(site.path("folder.toml")).unwrap();
     assert_eq!(site.run("build folder.toml").code, 3);
+}
+
+/// Files without an end are not read to it.
+#[cfg(target_os = "linux")]
+#[test]
+fn endless_files() {
+    let site = Site::new();
+    for name in ["z.toml", "z"] {
+        std::os::unix::fs::symlink("/dev/zero", site.path(name)).unwrap();
+    }
+    assert_eq!(site.run("build z.toml").code, 2);
+    assert_eq!(site.run("batch --list z").code, 2);
+    assert_eq!(site.run("info z").code, 3);
+    assert_eq!(site.run("info z.toml").code, 2);
 }
