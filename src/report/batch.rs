@@ -126,7 +126,7 @@ pub fn render_batch(report: &BatchReport) -> String {
     // Writing to a String cannot fail.
     let _ = writeln!(
         text,
-        "{:width$}  {:7} {:>4} {:>14} {:>14} {:>14}  {:5} {:>9}",
+        "  {:width$}  {:7} {:>4} {:>14} {:>14} {:>14}  {:5} {:>9}",
         "job", "result", "code", "cut", "fill", "net", "unit", "seconds"
     );
     let volumes = |v: Option<&JobVolumes>| match v {
@@ -137,7 +137,7 @@ pub fn render_batch(report: &BatchReport) -> String {
         let code = row.code.map_or_else(|| "–".to_owned(), |code| code.to_string());
         let _ = writeln!(
             text,
-            "{:width$}  {:7} {code:>4} {} {:>9.2}",
+            "  {:width$}  {:7} {code:>4} {} {:>9.2}",
             name(row),
             row.result.word(),
             volumes(row.volumes.as_ref()),
@@ -146,7 +146,7 @@ pub fn render_batch(report: &BatchReport) -> String {
     }
     let _ = writeln!(
         text,
-        "{:width$}  {:7} {:>4} {} {:>9.2}",
+        "  {:width$}  {:7} {:>4} {} {:>9.2}",
         "total",
         "",
         report.code,
@@ -195,11 +195,11 @@ mod tests {
         ];
         let text = render_batch(&BatchReport { tool: Tool { name: "slopegen", version: "0" }, ..BatchReport::new(jobs, 3, 1.5) });
         let expected = "slopegen 0: 3 jobs\n\n\
-            job             result  code            cut           fill            net  unit    seconds\n\
-            site/long.toml  done       0         100.00          25.00          75.00  m³         0.25\n\
-            b               failed     3              –              –              –             0.25\n\
-            c               not run    –              –              –              –             0.25\n\
-            total                      3         100.00          25.00          75.00  m³         1.50\n\n\
+            \x20 job             result  code            cut           fill            net  unit    seconds\n\
+            \x20 site/long.toml  done       0         100.00          25.00          75.00  m³         0.25\n\
+            \x20 b               failed     3              –              –              –             0.25\n\
+            \x20 c               not run    –              –              –              –             0.25\n\
+            \x20 total                      3         100.00          25.00          75.00  m³         1.50\n\n\
             1 done, 1 failed, 1 not run\n";
         assert_eq!(text, expected);
     }

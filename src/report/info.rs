@@ -173,9 +173,11 @@ impl InfoReport {
         self.uses.iter().any(|row| row.readable)
     }
 
-    /// Whether it is sound for everything it can be read as.
+    /// Whether it is sound for everything it can be read as. Text is one of them, line or points: what it is sound as.
     pub fn is_sound(&self) -> bool {
-        self.is_readable() && self.uses.iter().filter(|row| row.readable).all(|row| row.sound)
+        let mut readable = self.uses.iter().filter(|row| row.readable);
+        let sound = if self.file.format == "csv" { readable.any(|row| row.sound) } else { readable.all(|row| row.sound) };
+        sound && self.is_readable()
     }
 }
 

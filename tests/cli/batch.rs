@@ -64,7 +64,7 @@ fn all_jobs_and_one_summary() {
         let told = ["wrote jobs/a.obj\n", "wrote jobs/a.json\n", "wrote jobs/b.obj\n", ERRORS].concat();
         assert_eq!(run.stderr, told);
         let table = without_times(&run.stdout);
-        assert!(table.iter().any(|line| line.starts_with("jobs/a.toml  done       0 ")), "{table:?}");
+        assert!(table.iter().any(|line| line.starts_with("  jobs/a.toml  done       0 ")), "{table:?}");
         assert_eq!(table.last().unwrap(), "2 done, 2 failed");
         let mesh = fs::read(site.path("jobs/a.obj")).unwrap();
         let first = first.get_or_insert((table.clone(), mesh.clone()));

@@ -77,6 +77,10 @@ fn defects_are_listed_and_no_failure() {
     let row = used(&info(&site, "g.obj"), "ground").clone();
     assert!(row["sound"] == false && row["defects"].as_array().is_some_and(|list| !list.is_empty()), "{row}");
     assert_eq!(site.run("info pit.csv --strict").code, 0);
+    // A straight line is no ground, and need not be.
+    fs::write(site.path("s.csv"), "x,y,z\n0,0,1\n10,0,2\n20,0,3\n").unwrap();
+    let run = site.run("info s.csv --strict");
+    assert!(run.done().contains("\nAs ground: defects\n"), "{}", run.stdout);
 }
 
 #[test]

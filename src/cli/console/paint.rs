@@ -79,17 +79,29 @@ pub(super) fn report(text: &str) -> String {
     let paint = |line: &str| {
         if !line.is_empty() && !line.starts_with(' ') {
             warnings = line == "Warnings";
-            return painted(if warnings { WARNING } else { HEADING }, line);
+            let style = match line.split(':').next() {
+                Some("Warnings") => WARNING,
+                Some("PASSED") => GOOD,
+                Some("FAILED") => BAD,
+                _ => HEADING,
+            };
+            return painted(style, line);
         }
         let code = line.trim_start().split(':').next().unwrap_or("");
         if warnings && line.starts_with("  ") && !line.starts_with("    ") && !code.is_empty() {
             return line.replacen(code, &painted(WARNING, code), 1);
         }
+        // Results of jobs stand in the middle of their rows.
+        for (result, style) in [("  done  ", GOOD), ("  failed  ", BAD)] {
+            if line.contains(result) {
+                return line.replacen(result, &format!("  {}  ", painted(style, result.trim())), 1);
+            }
+        }
         let Some((before, last)) = line.rsplit_once(' ') else { return line.to_owned() };
         let style = match last {
             "surplus" | "deficit" | "balanced" => HEADING,
-            "yes" | "passed" | "done" => GOOD,
-            "NO" | "no" | "FAILED" | "failed" | "beyond" => BAD,
+            "yes" | "passed" => GOOD,
+            "NO" | "no" | "FAILED" | "beyond" => BAD,
             _ => return line.to_owned(),
         };
         format!("{before} {}", painted(style, last))
@@ -128,6 +140,16 @@ mod tests {
         for part in
             ["\u{1b}[1mVolumes\u{1b}[0m", "\u{1b}[1mdeficit\u{1b}[0m", "\u{1b}[31mNO\u{1b}[0m", "\u{1b}[33mburied\u{1b}[0m: 2 no"]
         {
+            assert!(shown.contains(part), "{part:?} in {shown:?}");
+        }
+    }
+
+    #[test]
+    fn results_of_jobs() {
+        let text = "slopegen 1: 2 jobs\n\n  a.toml  done       0  1.00\n  b.toml  failed     3     –\n\n1 done, 1 failed\n";
+        let shown = report(text);
+        plain(&shown, text);
+        for part in ["  \u{1b}[32mdone\u{1b}[0m  ", "  \u{1b}[1m\u{1b}[31mfailed\u{1b}[0m  "] {
             assert!(shown.contains(part), "{part:?} in {shown:?}");
         }
     }
