@@ -220,14 +220,14 @@ impl JobFile {
             let is = |text: &String| text.split([' ', ',', '=']).any(|word| word == option);
             named.iter().any(is) && !self.given.contains(&entry.id)
         };
-        let usage = error.render().to_string().contains("--");
         let places: Vec<String> = self
             .options()
             .filter(is_named)
             .filter_map(|entry| entry.values.first().map(|value| format!("  --> {}: {}", self.at(value.place), entry.key)))
             .collect();
-        // Help is no refusal, and what was typed in is told as ever.
-        if !error.use_stderr() || !usage || places.is_empty() && !needs(&error) {
+        // Help is no refusal, and what was typed in is told as ever. What is missing has no place.
+        let missing = error.kind() == ErrorKind::MissingRequiredArgument;
+        if !error.use_stderr() || places.is_empty() && !missing {
             return Stop::Parser(error);
         }
         let text = bare(&error);
@@ -290,11 +290,6 @@ impl JobFile {
     fn at(&self, place: Place) -> String {
         format!("{}, {place}", self.label)
     }
-}
-
-/// Whether the parser misses something.
-fn needs(error: &clap::Error) -> bool {
-    error.kind() == ErrorKind::MissingRequiredArgument
 }
 
 /// A value the parser refuses.
