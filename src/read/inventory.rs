@@ -1,7 +1,7 @@
 //! Everything a file holds, whatever it would be used for.
 
 use super::terrain::{RawGround, RawTerrain, TerrainOptions, kind, read_mesh, read_terrain};
-use super::{InputFormat, RawInput, RawLine, RawShape, ReadError, ReadOptions, Source, read_line};
+use super::{InputFormat, Pick, RawInput, RawLine, RawShape, ReadError, ReadOptions, Source, landxml, read_line};
 use glam::DVec3;
 use std::io::Read as _;
 use std::path::Path;
@@ -100,12 +100,16 @@ pub fn inventory(path: &Path, options: &ReadOptions) -> Result<Inventory, ReadEr
     let ground = as_ground.then(|| {
         let format = Some(format).filter(|_| InputFormat::from_path(path).is_none());
         let (csv_order, pick) = (options.csv_order.clone(), options.pick.clone());
-        read_terrain(path, &TerrainOptions { format, csv_order, pick })
+        read_terrain(path, &TerrainOptions { format, csv_order, pick, unit: options.unit })
     });
     let raw_line = line.as_ref().and_then(|line| line.as_ref().ok());
     let raw_ground = ground.as_ref().and_then(|ground| ground.as_ref().ok());
     let mut held: Vec<Held> = raw_line.into_iter().flat_map(|line| line.lines.iter().map(held_line)).collect();
-    held.extend(raw_ground.map(|ground| held_ground(&ground.ground)));
+    match format {
+        // There may be several of them, of which only one can be ground.
+        InputFormat::LandXml => held.extend(landxml::surfaces(&path.display().to_string(), &std::fs::read(path).map_err(open)?)?),
+        _ => held.extend(raw_ground.map(|ground| held_ground(&ground.ground))),
+    }
     if let (InputFormat::Obj | InputFormat::Ply, Some(Held::Surface { parts, .. })) = (format, held.last_mut()) {
         *parts = groups(path, format)?;
     }
@@ -141,7 +145,7 @@ fn by_content(path: &Path) -> Result<InputFormat, ReadError> {
 
 /// Groups of a mesh in the order of their first faces.
 fn groups(path: &Path, format: InputFormat) -> Result<Vec<(String, usize)>, ReadError> {
-    let mesh = read_mesh(path, Some(format))?;
+    let mesh = read_mesh(path, Some(format), &Pick::default())?;
     let mut parts: Vec<(String, usize)> = mesh.names.into_iter().map(|name| (name, 0)).collect();
     for group in mesh.groups {
         parts.get_mut(group as usize).into_iter().for_each(|(_, faces)| *faces += 1);
