@@ -29,6 +29,9 @@ pub(super) struct DiffArgs {
     /// Which surface of LandXML files with several of them
     #[arg(long, value_name = "NAME", help_heading = help::INPUT)]
     pub(super) surface: Option<String>,
+    /// Unit of files that declare none: m, ft (0.3048 m) or us-ft (1200/3937 m)
+    #[arg(long, value_name = "UNIT", help_heading = help::INPUT)]
+    pub(super) units: Option<String>,
 
     /// Exit with 5 if cut or fill differ by more: a volume, or a share such as 0.5% of the greater; of surfaces the volume between
     #[arg(long, value_name = "V", allow_negative_numbers = true, help_heading = help::CHECKS)]
@@ -75,12 +78,13 @@ fn job(args: &DiffArgs) -> Result<DiffJob, UsageErrors> {
     let (volume, area) = (most("--max-volume", args.max_volume.as_ref()), most("--max-area", args.max_area.as_ref()));
     let height = checks.number("--max-height", args.max_height.as_ref(), Rule::AtLeast(0.0));
     let csv_order = checks.order("--csv-order", args.csv_order.as_ref());
+    let unit = checks.unit(args.units.as_ref());
     let reports = checks.plain_reports(&args.report, args.running.quiet);
     let pick = Pick { surface: args.surface.clone(), ..Pick::default() };
     checks.finish(Some(DiffJob {
         first: args.first.clone(),
         second: args.second.clone(),
-        options: TerrainOptions { csv_order, pick, ..TerrainOptions::default() },
+        options: TerrainOptions { csv_order, pick, unit, ..TerrainOptions::default() },
         bounds: Bounds { volume, area, height, exact: args.exact },
         reports,
     }))

@@ -26,6 +26,9 @@ pub(super) struct InfoArgs {
     /// Which surface of a LandXML file with several of them is looked at as ground
     #[arg(long, value_name = "NAME", help_heading = help::INPUT)]
     pub(super) surface: Option<String>,
+    /// Unit of files that declare none: m, ft (0.3048 m) or us-ft (1200/3937 m)
+    #[arg(long, value_name = "UNIT", help_heading = help::INPUT)]
+    pub(super) units: Option<String>,
     /// Exit with 5 if there are defects
     #[arg(long, help_heading = help::CHECKS)]
     pub(super) strict: bool,
@@ -42,6 +45,7 @@ pub(super) struct InfoArgs {
 pub(super) fn run(args: &InfoArgs) -> anyhow::Result<Code> {
     let mut checks = Checks::default();
     let csv_order = checks.order("--csv-order", args.csv_order.as_ref());
+    let unit = checks.unit(args.units.as_ref());
     let reports = checks.plain_reports(&args.report, args.running.quiet);
     let mut reports = checks.finish(Some(reports))?;
     super::start(&args.running)?;
@@ -55,7 +59,7 @@ pub(super) fn run(args: &InfoArgs) -> anyhow::Result<Code> {
     let report = if job_file::is_job(&args.file) {
         job(&args.file)?
     } else {
-        pipeline::info(&args.file, &ReadOptions { csv_order, pick, ..ReadOptions::default() }, &console)?
+        pipeline::info(&args.file, &ReadOptions { csv_order, pick, unit, ..ReadOptions::default() }, &console)?
     };
     for (index, (_, format)) in reports.iter().enumerate() {
         outputs.write(index, |out| format.write_plain(out, &report, || render_info(&report))).map_err(pipeline::Error::from)?;

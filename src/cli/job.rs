@@ -137,7 +137,7 @@ impl Checks {
         LineInput { path: args.input.clone(), options, closed: args.closed, formation, unit, tolerance }
     }
 
-    fn unit(&mut self, text: Option<&String>) -> Option<LengthUnit> {
+    pub(super) fn unit(&mut self, text: Option<&String>) -> Option<LengthUnit> {
         let text = text?;
         self.take(text.parse::<LengthUnit>().map_err(|error| match error.split_once("; ") {
             Some((what, help)) => format!("{what}\n  --> --units {text}\n   = help: {help}"),

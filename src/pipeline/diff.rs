@@ -238,9 +238,10 @@ fn surfaces(job: &DiffJob, watch: &Stopwatch<'_>) -> Result<DiffReport, Error> {
         .into());
     }
     let read = |path, unit, name| read_ground(path, &job.options, unit, &Named { watch, name });
-    let first = read(&job.first, None, "first")?;
-    let second = read(&job.second, first.1.unit, "second")?;
-    let unit = first.1.unit.or(second.1.unit).unwrap_or_default();
+    let asked = job.options.unit;
+    let first = read(&job.first, asked, "first")?;
+    let second = read(&job.second, asked.or(first.1.unit), "second")?;
+    let unit = asked.or(first.1.unit).or(second.1.unit).unwrap_or_default();
     watch.stage("compare");
     let found = overlay::between(&second.0, &first.0, None).map_err(|cause| apart(&cause, &first.1, &second.1))?;
     let input = |role: &str, source: &Source| Input {

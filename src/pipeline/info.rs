@@ -4,8 +4,8 @@ use super::Error;
 use super::watch::{CHECKING, Observer, PREPARING, READING};
 use crate::kernel::sum::Sum;
 use crate::model::{Defects, LengthUnit, Note, Terrain};
-use crate::read::terrain::RawTerrain;
-use crate::read::{Document, Held, Inventory, RawInput, RawShape, ReadError, ReadOptions, inventory, read_document};
+use crate::read::terrain::{RawTerrain, TerrainOptions, read_terrain};
+use crate::read::{Document, Held, Inventory, Pick, RawInput, RawShape, ReadError, ReadOptions, inventory, read_document};
 use crate::report::info::{BoxFigures, FileFigures, INFO_SCHEMA, InfoReport, LineRow, PartRow, Setting, SurfaceRow, UseRow};
 use crate::report::{Tool, Warning};
 use crate::{terrain, validate};
@@ -49,17 +49,37 @@ pub fn info(path: &Path, options: &ReadOptions, observer: &dyn Observer) -> Resu
     }
     if let Some(ground) = ground {
         observer.stage(PREPARING);
-        let row = match ground {
-            Ok(raw) => as_ground(raw, &mut report),
-            Err(error) => not_read("ground", error, &mut unread),
+        let name = options.pick.surface.clone();
+        let several: Vec<String> = match (&ground, &name) {
+            (Err(_), None) => report.surfaces.iter().filter(|row| row.vertices > 0).filter_map(|row| row.name.clone()).collect(),
+            _ => Vec::new(),
         };
-        report.uses.push(row);
+        if several.len() < 2 {
+            let row = match ground {
+                Ok(raw) => as_ground(raw, name, &mut report),
+                Err(error) => not_read("ground", error, &mut unread),
+            };
+            report.uses.push(row);
+        }
+        // Each of several surfaces may be ground.
+        for name in several.into_iter().take(MOST_SURFACES) {
+            let pick = Pick { surface: Some(name.clone()), ..options.pick.clone() };
+            let known = TerrainOptions { format: None, csv_order: options.csv_order.clone(), pick, unit: options.unit };
+            let row = match read_terrain(path, &known) {
+                Ok(raw) => as_ground(raw, Some(name), &mut report),
+                Err(error) => UseRow { name: Some(name), ..not_read("ground", error, &mut unread) },
+            };
+            report.uses.push(row);
+        }
     }
     match unread.into_iter().next() {
         Some(error) if !report.is_readable() => Err(error.into()),
         _ => Ok(report),
     }
 }
+
+/// Surfaces of one file that are looked at as ground: each takes as long as the whole file.
+const MOST_SURFACES: usize = 20;
 
 /// A report about nothing yet.
 fn empty(path: &Path) -> InfoReport {
@@ -119,7 +139,7 @@ fn hold(held: &Held, report: &mut InfoReport) {
 }
 
 fn not_read(purpose: &'static str, error: ReadError, unread: &mut Vec<ReadError>) -> UseRow {
-    let row = UseRow { purpose, sound: false, readable: false, defects: vec![error.to_string()], notes: Vec::new() };
+    let row = UseRow { purpose, name: None, sound: false, readable: false, defects: vec![error.to_string()], notes: Vec::new() };
     unread.push(error);
     row
 }
@@ -133,7 +153,7 @@ fn row(purpose: &'static str, defects: &[Defects], notes: &[Note]) -> UseRow {
     let defects: Vec<String> = defects.iter().filter(|defects| !defects.is_empty()).map(ToString::to_string).collect();
     // Each begins a message of its own, as on standard error.
     let defects: Vec<String> = defects.iter().flat_map(|text| text.split("\nerror: ").map(str::to_owned)).collect();
-    UseRow { purpose, sound: defects.is_empty(), readable: true, defects, notes: warnings(notes) }
+    UseRow { purpose, name: None, sound: defects.is_empty(), readable: true, defects, notes: warnings(notes) }
 }
 
 fn as_line(raw: &RawInput) -> UseRow {
@@ -146,7 +166,7 @@ fn as_line(raw: &RawInput) -> UseRow {
     row("line", &defects, &notes)
 }
 
-fn as_ground(raw: RawTerrain, report: &mut InfoReport) -> UseRow {
+fn as_ground(raw: RawTerrain, name: Option<String>, report: &mut InfoReport) -> UseRow {
     let label = raw.source.label.clone();
     let mut notes = raw.notes.clone();
     let mut defects = Vec::new();
@@ -156,8 +176,8 @@ fn as_ground(raw: RawTerrain, report: &mut InfoReport) -> UseRow {
             notes = prepared.notes;
             notes.extend(looked.notes);
             defects.push(looked.defects);
-            // The last of the surfaces listed is the one that ground is made of.
-            if let Some(row) = report.surfaces.last_mut() {
+            let is_it = |row: &&mut SurfaceRow| row.vertices > 0 && (name.is_none() || row.name == name);
+            if let Some(row) = report.surfaces.iter_mut().rfind(is_it) {
                 let [plan, surface] = areas(&prepared.terrain);
                 row.triangles = Some(prepared.terrain.triangles.len());
                 (row.plan_area, row.surface_area) = (Some(plan), Some(surface));
@@ -165,7 +185,7 @@ fn as_ground(raw: RawTerrain, report: &mut InfoReport) -> UseRow {
         }
         Err(found) => defects.push(found),
     }
-    row("ground", &defects, &notes)
+    UseRow { name, ..row("ground", &defects, &notes) }
 }
 
 /// Area in plan, and as it lies.
@@ -230,6 +250,6 @@ pub fn job_info(path: &Path, bytes: &[u8], settings: Vec<Setting>, defects: Vec<
     let (sha256, sound) = (crate::read::sha256(bytes), defects.is_empty());
     let path_given = path.display().to_string();
     let file = FileFigures { path: path_given, format: "job".to_owned(), bytes: bytes.len() as u64, sha256: Some(sha256) };
-    let uses = vec![UseRow { purpose: "job", sound, readable: true, defects, notes: Vec::new() }];
+    let uses = vec![UseRow { purpose: "job", name: None, sound, readable: true, defects, notes: Vec::new() }];
     InfoReport { file, settings, uses, ..empty(path) }
 }

@@ -1,7 +1,7 @@
 //! Everything a file holds, whatever it would be used for.
 
 use super::terrain::{RawGround, RawTerrain, TerrainOptions, kind, read_mesh, read_terrain};
-use super::{InputFormat, Pick, RawInput, RawLine, RawShape, ReadError, ReadOptions, Source, read_line};
+use super::{InputFormat, Pick, RawInput, RawLine, RawShape, ReadError, ReadOptions, Source, landxml, read_line};
 use glam::DVec3;
 use std::io::Read as _;
 use std::path::Path;
@@ -105,9 +105,13 @@ pub fn inventory(path: &Path, options: &ReadOptions) -> Result<Inventory, ReadEr
     let raw_line = line.as_ref().and_then(|line| line.as_ref().ok());
     let raw_ground = ground.as_ref().and_then(|ground| ground.as_ref().ok());
     let mut held: Vec<Held> = raw_line.into_iter().flat_map(|line| line.lines.iter().map(held_line)).collect();
-    held.extend(raw_ground.map(|ground| held_ground(&ground.ground)));
+    match format {
+        // There may be several of them, of which only one can be ground.
+        InputFormat::LandXml => held.extend(landxml::surfaces(&path.display().to_string(), &std::fs::read(path).map_err(open)?)?),
+        _ => held.extend(raw_ground.map(|ground| held_ground(&ground.ground))),
+    }
     if let (InputFormat::Obj | InputFormat::Ply, Some(Held::Surface { parts, .. })) = (format, held.last_mut()) {
-        *parts = groups(path, format, &options.pick)?;
+        *parts = groups(path, format)?;
     }
     let mut bounds = None;
     raw_line.into_iter().for_each(|line| around_line(line, &mut bounds));
@@ -140,8 +144,8 @@ fn by_content(path: &Path) -> Result<InputFormat, ReadError> {
 }
 
 /// Groups of a mesh in the order of their first faces.
-fn groups(path: &Path, format: InputFormat, pick: &Pick) -> Result<Vec<(String, usize)>, ReadError> {
-    let mesh = read_mesh(path, Some(format), pick)?;
+fn groups(path: &Path, format: InputFormat) -> Result<Vec<(String, usize)>, ReadError> {
+    let mesh = read_mesh(path, Some(format), &Pick::default())?;
     let mut parts: Vec<(String, usize)> = mesh.names.into_iter().map(|name| (name, 0)).collect();
     for group in mesh.groups {
         parts.get_mut(group as usize).into_iter().for_each(|(_, faces)| *faces += 1);

@@ -157,6 +157,9 @@ pub struct UseRow {
     /// What for.
     #[serde(rename = "use")]
     pub purpose: &'static str,
+    /// The surface it is about, where a file has several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
     /// Whether there is nothing against it.
     pub sound: bool,
     /// Whether it could be read as such.
@@ -221,7 +224,8 @@ pub fn render_info(report: &InfoReport) -> String {
             (true, 0) => "nothing against it".to_owned(),
             (true, _) => "defects".to_owned(),
         };
-        let _ = writeln!(text, "\nAs {}: {verdict}", row.purpose);
+        let name = row.name.as_deref().map_or_else(String::new, |name| format!(" `{}`", printable(name)));
+        let _ = writeln!(text, "\nAs {}{name}: {verdict}", row.purpose);
         for defect in &row.defects {
             let shown: Vec<String> = defect.lines().map(printable).collect();
             let _ = writeln!(text, "  {}", shown.join("\n  "));

@@ -83,6 +83,27 @@ fn defects_are_listed_and_no_failure() {
     assert!(run.done().contains("\nAs ground: defects\n"), "{}", run.stdout);
 }
 
+/// A LandXML file with several surfaces and alignments: all are listed, and each surface is looked at.
+#[test]
+fn landxml() {
+    let site = Site::new();
+    let from = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/landxml/site.xml");
+    fs::copy(from, site.path("site.xml")).unwrap();
+    let report = info(&site, "site.xml");
+    let surfaces = report["surfaces"].as_array().unwrap();
+    let names: Vec<&str> = surfaces.iter().filter_map(|row| row["name"].as_str()).collect();
+    assert!(names.contains(&"EG") && names.contains(&"FG"), "{names:?}");
+    for row in surfaces {
+        assert!(row["vertices"].as_u64().unwrap() > 0 && row["plan_area"].as_f64().unwrap() > 0.0, "{row}");
+        let as_ground = report["uses"].as_array().unwrap().iter().find(|used| used["name"] == row["name"]).unwrap();
+        assert_eq!((&as_ground["use"], &as_ground["readable"]), (&"ground".into(), &true.into()));
+    }
+    assert_eq!(report["unit"], "m");
+    let one = info(&site, "site.xml --surface FG");
+    let uses: Vec<&Value> = one["uses"].as_array().unwrap().iter().filter(|row| row["use"] == "ground").collect();
+    assert_eq!((uses.len(), &uses[0]["name"]), (1, &"FG".into()));
+}
+
 #[test]
 fn job_files_and_reports() {
     let site = Site::with("job.toml", "input = 'road.geojson'\nslope = '1:1.5'\nreport = 'r.json'\n");

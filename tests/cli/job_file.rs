@@ -86,14 +86,12 @@ fn refused(job: &str, arguments: &str, code: i32, message: &str) {
 #[test]
 fn what_is_wrong_is_told_with_its_place() {
     refused(
-        "input = 'hill_road.geojson'\nslope = '1:0.5'\nheight = 'x'\noutput = 'a.stl'\n",
+        "input = 'hill_road.geojson'\nslope = '1:0.5'\nheight = 'x'\n",
         "",
         2,
         "error: `1:0.5` is ambiguous\n  --> site/job.toml, line 2, column 9: --slope 1:0.5\n   = it may mean 63.43° or 26.57°\n   \
          = help: write `1V:0.5H` or `1H:0.5V`\n\
-         error: `x` is not a number\n  --> site/job.toml, line 3, column 10: --height x\n   = help: give a number such as 12.5\n\
-         error: no format is known for the ending `.stl`\n  --> site/a.stl\n  --> site/job.toml, line 4, column 10\n   \
-         = help: end the name of a mesh in `.obj` or `.ply`",
+         error: `x` is not a number\n  --> site/job.toml, line 3, column 10: --height x\n   = help: give a number such as 12.5",
     );
     refused(
         "input = 'hill_road.geojson'\ncutslope = '1:1'\n",
@@ -150,6 +148,11 @@ fn what_is_wrong_is_told_with_its_place() {
 #[test]
 fn mistakes_on_the_command_line() {
     let site = site(JOB);
+    // A name has the place it is given at below it.
+    fs::write(site.path("site/name.toml"), "input = 'hill_road.geojson'\nslope = '1:1'\noutput = 'a.docx'\n").unwrap();
+    let run = site.run("build site/name.toml");
+    let place = "error: no format is known for the ending `.docx`\n  --> site/a.docx\n  --> site/name.toml, line 3, column 10\n";
+    assert!(run.code == 2 && run.stderr.starts_with(place), "{run:?}");
     let run = site.run("build site/job.toml --fil-slope 1:2");
     assert!(run.code == 2 && run.stderr.starts_with("error: unexpected argument '--fil-slope' found"), "{run:?}");
     assert!(!run.stderr.contains("--terrain"), "{}", run.stderr);
