@@ -333,18 +333,20 @@ fn lost_digits_are_told() {
     assert!(!run.stderr.contains("single-precision"), "{}", run.stderr);
 }
 
-/// What the program writes it reads: the same surfaces and lines, bit for bit, with the unit.
+/// What the program writes it reads: the same surfaces and lines, bit for bit, with unit and reference system.
 #[test]
-fn surfaces_read_back() {
+fn surfaces_and_drawings_read_back() {
     let site = site();
-    let files = |stem: &str, option: &str| ["ply", "xml"].map(|ending| format!(" {option} {stem}.{ending}")).concat();
+    let files = |stem: &str, option: &str| ["ply", "xml", "dxf"].map(|ending| format!(" {option} {stem}.{ending}")).concat();
     let lines = files("l", "--lines").replace(".ply", ".geojson");
     site.run(&format!("{ROAD}{}{}{lines}", files("w", "-o"), files("f", "--finished"))).done();
     for stem in ["w", "f"] {
         let (_, expected) = read(&site, &format!("{stem}.ply"), InputFormat::Ply);
-        let (raw, triangles) = read(&site, &format!("{stem}.xml"), InputFormat::LandXml);
-        assert_eq!(triangles, expected, "{stem}");
-        assert_eq!(raw.source.unit, Some(LengthUnit::Metre));
+        for (ending, format) in [("xml", InputFormat::LandXml), ("dxf", InputFormat::Dxf)] {
+            let (raw, triangles) = read(&site, &format!("{stem}.{ending}"), format);
+            assert_eq!(triangles, expected, "{stem}.{ending}");
+            assert_eq!(raw.source.unit, (format == InputFormat::LandXml).then_some(LengthUnit::Metre));
+        }
     }
     let hinge = |name: &str, options: &ReadOptions| -> Vec<[Option<f64>; 3]> {
         let raw = parse_line(name, &fs::read(site.path(name)).unwrap(), options).unwrap();
@@ -357,7 +359,13 @@ fn surfaces_read_back() {
     let expected: Vec<[Option<f64>; 3]> =
         expected["geometry"]["coordinates"].as_array().unwrap().iter().map(|p| [0, 1, 2].map(|k| p[k].as_f64())).collect();
     assert!(expected.len() > 20);
-    let pick = Pick { features: vec!["hinge 1".into()], ..Pick::default() };
-    let options = ReadOptions { pick, ..ReadOptions::of(InputFormat::LandXml) };
+    let pick = |features: &[&str], layers: &[&str]| Pick {
+        features: features.iter().map(ToString::to_string).collect(),
+        layers: layers.iter().map(ToString::to_string).collect(),
+        ..Pick::default()
+    };
+    let options = ReadOptions { pick: pick(&["hinge 1"], &[]), ..ReadOptions::of(InputFormat::LandXml) };
     assert_eq!(hinge("l.xml", &options), expected);
+    let options = ReadOptions { pick: pick(&[], &["HINGE"]), ..ReadOptions::of(InputFormat::Dxf) };
+    assert_eq!(hinge("l.dxf", &options), expected);
 }
