@@ -25,11 +25,16 @@ test:
 doc:
     RUSTDOCFLAGS="-D warnings" cargo doc --no-deps
 
+# The schemas of the JSON reports under docs/, from the program; tests compare them
+schema:
+    cargo run --example schema
+
 # Figures of speed; see docs/performance.md
 bench:
     cargo bench --bench engine
     cargo bench --bench overlay
     cargo bench --bench reading
+    cargo bench --bench writing
     cargo bench --bench ground
 
 # The pictures of the README, from fixtures

@@ -155,8 +155,8 @@ fn run(name: &str, count: usize) {
         ms(end - start),
         triangles,
         triangles as f64 / (end - start).as_secs_f64() / 1e6,
-        rate(&|bytes| write::write_ply(bytes, &surface.tin).expect("memory")),
-        rate(&|bytes| write::write_obj(bytes, &surface.tin).expect("memory")),
+        rate(&|bytes| write::write_ply(bytes, &surface.tin, &write::Head::default()).expect("memory")),
+        rate(&|bytes| write::write_obj(bytes, &surface.tin, &write::Head::default()).expect("memory")),
         memory
     );
 }

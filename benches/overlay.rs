@@ -8,7 +8,7 @@ use glam::DVec2;
 use slopegen::kernel::frame::Frame;
 use slopegen::model::{Part, Terrain, Tin};
 use slopegen::overlay::{Between, between};
-use slopegen::write::write_ply;
+use slopegen::write::{Head, write_ply};
 use spade::{DelaunayTriangulation, Point2, Triangulation as _};
 use std::time::Instant;
 
@@ -55,7 +55,7 @@ fn main() {
         for (mesh, path) in [a, b].into_iter().zip(&paths) {
             let parts = vec![Part::Ground; mesh.triangles.len()];
             let tin = Tin { frame: mesh.frame, vertices: mesh.vertices, triangles: mesh.triangles, parts };
-            write_ply(&mut std::fs::File::create(path).expect("a file"), &tin).expect("a mesh");
+            write_ply(&mut std::fs::File::create(path).expect("a file"), &tin, &Head::default()).expect("a mesh");
         }
         let out = std::process::Command::new(&this).args(&paths).output().expect("a run of the program");
         print!("{:>16}, whole program: {}", name, String::from_utf8_lossy(&out.stdout));

@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
-const CASES: [&str; 5] = ["ply", "obj", "asc", "csv", "xyz"];
+const CASES: [&str; 6] = ["ply", "obj", "asc", "csv", "xyz", "xml"];
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
@@ -81,6 +81,20 @@ fn write(case: &str, count: usize, path: &Path) {
             for [a, b, c] in triangles {
                 let _ = writeln!(text, "f {} {} {}", a + 1, b + 1, c + 1);
             }
+        }
+        "xml" => {
+            text.push_str(
+                "<?xml version=\"1.0\"?>\n<LandXML xmlns=\"http://www.landxml.org/schema/LandXML-1.2\" version=\"1.2\">\n<Units><Metric \
+                 linearUnit=\"meter\"/></Units>\n<Surfaces><Surface name=\"ground\"><Definition surfType=\"TIN\">\n<Pnts>\n",
+            );
+            for (i, [x, y, z]) in points.iter().enumerate() {
+                let _ = writeln!(text, "<P id=\"{}\">{y:.4} {x:.4} {z:.4}</P>", i + 1);
+            }
+            text.push_str("</Pnts>\n<Faces>\n");
+            for [a, b, c] in triangles {
+                let _ = writeln!(text, "<F>{} {} {}</F>", a + 1, b + 1, c + 1);
+            }
+            text.push_str("</Faces></Definition></Surface></Surfaces></LandXML>\n");
         }
         "asc" => {
             let _ = write!(text, "ncols {n}\nnrows {n}\nxllcorner 500000\nyllcorner 5400000\ncellsize 2\n");

@@ -26,17 +26,21 @@ const ORDER: [&str; 18] = [
 ];
 
 /// Packages that stay at the edge, with the modules that may name them.
-const EDGE: [(&str, &[&str]); 9] = [
+const EDGE: [(&str, &[&str]); 10] = [
     ("anyhow", &["cli", "main"]),
     ("clap", &["cli", "main"]),
     ("indicatif", &["cli"]),
     ("ctrlc", &["cli"]),
     ("geojson", &["read", "write"]),
-    ("csv", &["read"]),
+    ("csv", &["read", "report"]),
     ("spade", &["mesh", "terrain"]),
     ("tobj", &["read"]),
     ("tempfile", &["write"]),
+    ("quick_xml", &["read"]),
 ];
+
+/// The one file that may turn doubles into single-precision numbers, for formats that hold no others.
+const SINGLE_PRECISION: &str = "write/single.rs";
 
 /// Lines of a file, its tests not counted, beyond which it must be split.
 const LONGEST_FILE: usize = 800;
@@ -240,7 +244,10 @@ fn numbers_are_double_and_nothing_prints() {
     let mut found = Vec::new();
     for source in sources() {
         for (number, line) in &source.lines {
-            let single = ["f32", "Vec2", "Vec3", "Vec4", "Mat3", "Mat4"].iter().any(|word| has_word(line, word));
+            let converts = source.path == Path::new(SINGLE_PRECISION);
+            let single = ["f32", "Vec2", "Vec3", "Vec4", "Mat3", "Mat4"]
+                .iter()
+                .any(|word| has_word(line, word) && !(converts && *word == "f32"));
             let prints = ["println!", "print!", "eprintln!", "eprint!", "dbg!"].iter().any(|word| has_word(line, word));
             if single || prints {
                 found.push(format!("src/{}:{number}: {}", source.path.display(), line.trim()));

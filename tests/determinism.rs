@@ -7,17 +7,20 @@ use common::lines::{Random, case, crossing_roads, road, star};
 use common::oracle::Polyline;
 use slopegen::model::{Design, Extent, Sheet, Side};
 use slopegen::surface::{self, Surface};
-use slopegen::write::{MeshFormat, write_lines};
+use slopegen::write::{Head, LineFormat, MeshFormat};
 use std::fs;
 use std::path::Path;
 
 /// Everything that is written of a surface.
 fn bytes(surface: &Surface) -> Vec<u8> {
     let mut bytes = Vec::new();
-    for format in [MeshFormat::Obj, MeshFormat::Ply] {
-        format.write(&mut bytes, &surface.tin).expect("a sink in memory");
+    let head = Head { lines: &surface.lines, ..Head::default() };
+    for format in [MeshFormat::Obj, MeshFormat::Ply, MeshFormat::LandXml, MeshFormat::Dxf, MeshFormat::Stl, MeshFormat::Glb] {
+        format.write(&mut bytes, &surface.tin, &head).expect("a sink in memory");
     }
-    write_lines(&mut bytes, &surface.lines, None).expect("a sink in memory");
+    for format in [LineFormat::GeoJson, LineFormat::LandXml, LineFormat::Dxf] {
+        format.write(&mut bytes, &head).expect("a sink in memory");
+    }
     // Figures of the report, to the last bit: `{:?}` of a number reads back as the same number.
     let figures = (&surface.levels, &surface.buried, surface.certificate, &surface.areas, &surface.volumes, &surface.notes);
     bytes.extend(format!("{figures:?} {} {}", surface.simplified, surface.simplified_max).into_bytes());
@@ -89,6 +92,7 @@ fn run(folder: &Path, threads: &str) -> Vec<(&'static str, Vec<u8>)> {
         .timeout(std::time::Duration::from_secs(120))
         .assert()
         .success();
+    assert_eq!(common::schema::check_folder(folder), 1);
     let read = |name: &'static str| {
         let content = fs::read(folder.join(name)).expect(name);
         (name, if name == "r.json" { without_times(&content) } else { content })

@@ -3,6 +3,8 @@
 
 #![allow(clippy::print_stderr, reason = "tells what was skipped")]
 
+mod common;
+
 use std::path::{Path, PathBuf};
 
 /// Codes of errors and remarks, and the exit code.
@@ -14,6 +16,12 @@ fn check(path: &Path) -> (Option<i32>, Vec<String>, serde_json::Value) {
         .output()
         .unwrap();
     let json: serde_json::Value = serde_json::from_slice(&std::fs::read(report.path()).unwrap()).unwrap_or_default();
+    assert!(
+        json.is_null() || common::schema::faults(&json).is_empty(),
+        "{}: {:?}",
+        path.display(),
+        common::schema::faults(&json)
+    );
     let findings = json["findings"].as_array().cloned().unwrap_or_default();
     let codes = findings.iter().map(|f| format!("{} {}", f["code"].as_str().unwrap(), f["count"])).collect();
     (output.status.code(), codes, json)

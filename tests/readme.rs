@@ -1,5 +1,7 @@
 //! The README says what is so: its commands run, its report has the lines shown, its links lead somewhere.
 
+mod common;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -51,7 +53,7 @@ fn outputs(arguments: &str) -> Vec<PathBuf> {
     if words[0] == "build" && files.is_empty() {
         files.push(Path::new(Path::new(words[1]).file_stem().unwrap()).with_extension("obj"));
     }
-    files.extend(["--finished", "--lines", "--report", "--raster"].iter().flat_map(|option| after(option)));
+    files.extend(["--finished", "--lines", "--report", "--station-table", "--raster"].iter().flat_map(|option| after(option)));
     files
 }
 
@@ -66,6 +68,7 @@ fn check(arguments: &str, expected: i32, folder: &Path) -> Output {
         let size = fs::metadata(folder.join(&file)).map_or(0, |m| m.len());
         assert_eq!(size > 0, expected == 0, "slopegen {arguments}: {} has {size} bytes\n{said}", file.display());
     }
+    common::schema::check_folder(folder);
     output
 }
 

@@ -72,7 +72,7 @@ pub(super) struct BuildArgs {
     /// Take volumes against the plane at elevation Z [default: where the slopes end]; not with --terrain
     #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = help::SURFACE)]
     pub(super) reference: Option<String>,
-    /// Existing ground: .obj, .ply, .csv, .xyz, .txt or .asc; slopes then end where they meet it
+    /// Existing ground: .obj, .ply, .xml (LandXML), .csv, .xyz, .txt or .asc; slopes then end where they meet it
     #[arg(long, value_name = "FILE", help_heading = help::INPUT)]
     pub(super) terrain: Option<PathBuf>,
     /// Columns of a ground of points without a header, such as xyz or pnezd
@@ -90,7 +90,7 @@ pub(super) struct BuildArgs {
     /// Accept slopes that end without meeting the ground, and platforms partly beside it
     #[arg(long, help_heading = help::SURFACE)]
     pub(super) allow_open: bool,
-    /// Write the whole ground with the works in it: .obj or .ply
+    /// Write the whole ground with the works in it, in any format of -o; may be repeated
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) finished: Vec<OsString>,
     /// Cut and fill for every D along the line, with cross-sections and the running net; stations of slope stakes
@@ -108,10 +108,11 @@ pub(super) struct BuildArgs {
     #[arg(long, help_heading = help::SURFACE)]
     pub(super) strict: bool,
 
-    /// Write the mesh; .obj or .ply, may be repeated [default: the input's name with .obj, in the working folder]
+    /// Write the mesh: .obj, .ply, .xml (LandXML), .dxf, .stl or .glb; may be repeated [default: the input's name with .obj, in
+    /// the working folder]
     #[arg(short, long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) output: Vec<OsString>,
-    /// Write the report; .json or .txt, may be repeated [default: as text to standard output]
+    /// Write the report; .json, .txt or .md, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
     /// Write slope stakes for every --stations and side: hinge, catch point, distances, slope; .csv, may be repeated
@@ -123,9 +124,26 @@ pub(super) struct BuildArgs {
     /// Stations of the cross-sections drawn, such as 40,80,120 [default: those of --stations]
     #[arg(long, value_name = "S", value_delimiter = ',', allow_negative_numbers = true, help_heading = help::OUTPUT)]
     pub(super) section: Vec<String>,
-    /// Write level curves, creases, hinge, daylight line and boundary; .geojson, may be repeated
+    /// Write the table of stations, all digits; .csv, may be repeated; needs --stations
+    #[arg(long, value_name = "FILE", requires = "stations", help_heading = help::OUTPUT)]
+    pub(super) station_table: Vec<OsString>,
+    /// Write level curves, creases, hinge, daylight line and boundary: .geojson, .xml (LandXML) or .dxf; may be repeated
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) lines: Vec<OsString>,
+    /// Count the coordinates of meshes for viewers (.obj, .ply, .stl, .glb) from a point near them, told in FILE.origin.json
+    ///
+    /// Alone or with `auto` a round point south-west of the mesh. STL and GLB are always written like this. LandXML and DXF keep
+    /// world coordinates.
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "auto",
+        allow_hyphen_values = true,
+        help_heading = help::OUTPUT
+    )]
+    pub(super) local_origin: Option<String>,
 
     #[command(flatten)]
     pub(super) running: Running,
@@ -172,7 +190,7 @@ pub(super) struct SampleArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct VolumeArgs {
-    /// The surface after the works: .obj, .ply, .asc, or points as .csv, .txt, .xyz; with --to-elevation the surface before
+    /// The surface after the works: .obj, .ply, .xml (LandXML), .asc, or points as .csv, .txt, .xyz; with --to-elevation the surface before
     #[arg(value_name = "DESIGN")]
     pub(super) design: PathBuf,
     /// The surface before the works, in any of these formats
@@ -187,8 +205,17 @@ pub(super) struct VolumeArgs {
     /// Columns of text files of points without a header, such as xyz or pnezd
     #[arg(long, value_name = "ORDER", help_heading = help::INPUT)]
     pub(super) csv_order: Option<String>,
+    /// Which surface of a LandXML file with several of them is the first one given
+    #[arg(long, value_name = "NAME", help_heading = help::INPUT)]
+    pub(super) surface: Option<String>,
+    /// Which surface of a LandXML file with several of them is the one before the works
+    #[arg(long, value_name = "NAME", conflicts_with = "to_elevation", help_heading = help::INPUT)]
+    pub(super) existing_surface: Option<String>,
+    /// Unit of the figures, and of files that declare none: m, ft (0.3048 m) or us-ft (1200/3937 m) [default: that of the first file, else m]
+    #[arg(long, value_name = "UNIT", help_heading = help::INPUT)]
+    pub(super) units: Option<String>,
 
-    /// Write the report; .json or .txt, may be repeated [default: as text to standard output]
+    /// Write the report; .json, .txt or .md, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
 
@@ -198,7 +225,7 @@ pub(super) struct VolumeArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct InputArgs {
-    /// The line: .geojson, .json, .csv, .txt, .tsv or .xyz; - is standard input
+    /// The line: .geojson, .json, .csv, .txt, .tsv, .xyz or LandXML (.xml); - is standard input
     #[arg(value_name = "INPUT")]
     pub(super) input: PathBuf,
     /// Format of the input [default: by its extension]

@@ -5,7 +5,7 @@ use super::help;
 use super::job::{Checks, LEAST_LENGTH, UsageErrors, targets};
 use super::number::{self, Rule};
 use crate::pipeline::{CheckJob, SlopeWish};
-use crate::read::InputFormat;
+use crate::read::{InputFormat, Pick};
 use crate::report::ReportFormat;
 use crate::write::Target;
 use clap::{Args, ValueEnum};
@@ -17,12 +17,15 @@ const MOST_PLACES: usize = 10_000;
 
 #[derive(Debug, Args)]
 pub(super) struct CheckArgs {
-    /// The mesh: .obj or .ply; - is standard input
+    /// The mesh: .obj, .ply or LandXML; - is standard input
     #[arg(value_name = "MESH")]
     pub(super) mesh: PathBuf,
     /// Format of the mesh [default: by its extension, else by its content]
     #[arg(long, value_enum, value_name = "FORMAT", help_heading = help::INPUT)]
     pub(super) input_format: Option<MeshFormatArg>,
+    /// Which surface of a LandXML file with several of them is looked at
+    #[arg(long, value_name = "NAME", help_heading = help::INPUT)]
+    pub(super) surface: Option<String>,
 
     /// A slope to be kept: 1:1.5, 2H:1V, 1in2, 50% or 26.57deg
     ///
@@ -45,7 +48,7 @@ pub(super) struct CheckArgs {
     /// Places told of each kind of finding
     #[arg(long, value_name = "N", default_value = "3", allow_negative_numbers = true, help_heading = help::OUTPUT)]
     pub(super) places: String,
-    /// Write the report; .json or .txt, may be repeated [default: as text to standard output]
+    /// Write the report; .json, .txt or .md, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
 
@@ -57,6 +60,7 @@ pub(super) struct CheckArgs {
 pub(super) enum MeshFormatArg {
     Obj,
     Ply,
+    Landxml,
 }
 
 /// The job of `slopegen check`.
@@ -81,10 +85,12 @@ pub(super) fn check_job(args: &CheckArgs) -> Result<CheckJob, UsageErrors> {
     let format = args.input_format.map(|format| match format {
         MeshFormatArg::Obj => InputFormat::Obj,
         MeshFormatArg::Ply => InputFormat::Ply,
+        MeshFormatArg::Landxml => InputFormat::LandXml,
     });
     let job = tolerance.zip(most_off).zip(places).map(|((tolerance_deg, most_off), places)| CheckJob {
         path: args.mesh.clone(),
         format,
+        pick: Pick { surface: args.surface.clone(), ..Pick::default() },
         slope: slope.map(|slope| SlopeWish { slope, tolerance_deg, most_off, parts: args.part.clone() }),
         gap,
         places,

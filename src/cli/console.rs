@@ -11,7 +11,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Notes on the result itself rather than on how the input was read.
-const WARNINGS: [&str; 10] = [
+const WARNINGS: [&str; 11] = [
     "buried",
     "line-beyond-end",
     "ground-single-precision",
@@ -22,6 +22,7 @@ const WARNINGS: [&str; 10] = [
     "design-uncovered",
     "meshes-swapped",
     "lies-double",
+    "single-precision",
 ];
 
 /// Time between two frames of the progress display.

@@ -24,6 +24,8 @@ Examples:
       cuttings and embankments of a road on existing ground: the works, volumes, and the whole ground with the works in it
   slopegen build pad.geojson --slope 1:2 --terrain ground.ply --stations 20 --swell 25% --shrink 10% --report pad.json
       the same for a building pad, with figures along its edge and the change in volume of the soil
+  slopegen build pad.geojson --slope 1:2 --terrain ground.obj -o pad.xml -o pad.dxf --finished after.glb
+      the design for a rover (LandXML, DXF), the ground after the works for a viewer
   slopegen build road.geojson --slope 1:1.5
       embankment on both sides of a road, 10 below its lowest vertex: road.obj, report on standard output
   slopegen build road.geojson --slope 1:1.5 --width 8 --crossfall 2.5%

@@ -4,13 +4,15 @@ use super::args::{BuildArgs, DirectionArg, FormatArg, InputArgs, Running, Sample
 use super::number::{self, Rule};
 use crate::formation::{Crossfall, Formation};
 use crate::model::{Bulking, Extent, LengthUnit, Sheet, Side, Slope};
-use crate::pipeline::{Against, Area, BuildJob, GroundInput, Lattice, LineInput, SampleJob, VolumeJob, Where, Wishes};
+use crate::pipeline::{
+    Against, Area, BuildJob, GroundInput, Lattice, LineInput, LocalOrigin, SampleJob, VolumeJob, Where, Wishes,
+};
 use crate::plot::Drawing;
 use crate::read::terrain::TerrainOptions;
 use crate::read::{ColumnOrder, InputFormat, Pick, ReadOptions};
 use crate::report::ReportFormat;
-use crate::write::{MeshFormat, Target, UnknownFormat};
-use glam::DVec2;
+use crate::write::{LineFormat, MeshFormat, Target, UnknownFormat};
+use glam::{DVec2, DVec3};
 use std::ffi::{OsStr, OsString};
 use std::fmt;
 use std::path::Path;
@@ -117,15 +119,18 @@ impl Checks {
         let csv_order = self.order("--csv-order", args.csv_order.as_ref());
         let tolerance = DEFAULT_TOLERANCE;
         let formation = self.formation(args, tolerance);
-        let unit = args.units.as_ref().and_then(|text| {
-            self.take(text.parse::<LengthUnit>().map_err(|error| match error.split_once("; ") {
-                Some((what, help)) => format!("{what}\n  --> --units {text}\n   = help: {help}"),
-                None => error,
-            }))
-        });
+        let unit = self.unit(args.units.as_ref());
         let pick = Pick { features: args.feature.clone(), layers: args.layer.clone(), ..Pick::default() };
-        let options = ReadOptions { format, csv_order, pick, ..ReadOptions::default() };
+        let options = ReadOptions { format, csv_order, pick, unit, ..ReadOptions::default() };
         LineInput { path: args.input.clone(), options, closed: args.closed, formation, unit, tolerance }
+    }
+
+    fn unit(&mut self, text: Option<&String>) -> Option<LengthUnit> {
+        let text = text?;
+        self.take(text.parse::<LengthUnit>().map_err(|error| match error.split_once("; ") {
+            Some((what, help)) => format!("{what}\n  --> --units {text}\n   = help: {help}"),
+            None => error,
+        }))
     }
 
     fn formation(&mut self, args: &InputArgs, tolerance: f64) -> Option<Formation> {
@@ -244,11 +249,13 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     let bulking = checks.bulking(args);
     if args.terrain.is_none() {
         let finished = args.finished.first().map(|name| name.to_string_lossy().into_owned());
+        let table = args.station_table.first().map(|name| name.to_string_lossy().into_owned());
         checks.needs_ground(&[
             ("--stations", args.stations.as_ref().filter(|_| args.stakes.is_empty())),
             ("--swell", args.swell.as_ref()),
             ("--shrink", args.shrink.as_ref()),
             ("--finished", finished.as_ref()),
+            ("--station-table", table.as_ref()),
             ("--allow-open", args.allow_open.then(String::new).as_ref()),
         ]);
     } else if let Some(z) = &args.reference {
@@ -290,9 +297,10 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         let format = checks.format(MeshFormat::of(&target));
         finished.extend(format.map(|format| (target, format)));
     }
-    let lines = targets(&args.lines);
-    for target in &lines {
-        checks.format(ending(target, "line-work file", &["geojson", "json"], "`.geojson` or `.json`"));
+    let mut lines = Vec::new();
+    for target in targets(&args.lines) {
+        let format = checks.format(LineFormat::of(&target));
+        lines.extend(format.map(|format| (target, format)));
     }
     let stakes = targets(&args.stakes);
     for target in &stakes {
@@ -300,6 +308,11 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     }
     let plots = checks.plots(args);
     let sections = checks.sections(args, &plots);
+    let station_tables = targets(&args.station_table);
+    for target in &station_tables {
+        checks.format(ending(target, "table", &["csv"], "`.csv`"));
+    }
+    let origin = args.local_origin.as_ref().and_then(|text| checks.take(local_origin(text)));
     let mut reports = Vec::new();
     for target in targets(&args.report) {
         let format = checks.format(ReportFormat::of(&target));
@@ -309,9 +322,10 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         .iter()
         .chain(&finished)
         .map(|(t, _)| t)
-        .chain(&lines)
+        .chain(lines.iter().map(|(t, _)| t))
         .chain(&stakes)
         .chain(plots.iter().map(|(t, _)| t))
+        .chain(&station_tables)
         .chain(reports.iter().map(|(t, _)| t))
         .any(|t| *t == Target::Stdout);
     if !used && !args.running.quiet {
@@ -319,6 +333,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     }
 
     let extent = extent.into_iter().flatten().next();
+    let unit = input.unit;
     let csv_order = checks.order("--terrain-order", args.terrain_order.as_ref());
     let ground = args.terrain.as_ref().map(|path| GroundInput {
         path: path.clone(),
@@ -331,6 +346,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
                 classes: args.class.clone(),
                 ..Pick::default()
             },
+            unit,
         },
         allow_open: args.allow_open,
     });
@@ -351,6 +367,8 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         stakes,
         plots,
         sections,
+        station_tables,
+        local_origin: origin,
         reports,
     });
     checks.finish(job)
@@ -415,7 +433,11 @@ pub(super) fn volume_job(args: &VolumeArgs) -> Result<VolumeJob, UsageErrors> {
         reports.push((Target::Stdout, ReportFormat::Text));
     }
     let within = args.within.clone();
-    checks.finish(against.map(|against| VolumeJob { against, csv_order, within, reports }))
+    let unit = checks.unit(args.units.as_ref());
+    // A surface that is brought to a level is the first one given, and the existing one.
+    let existing = if args.existing.is_some() { &args.existing_surface } else { &args.surface };
+    let picks = [&args.surface, existing].map(|surface| Pick { surface: surface.clone(), ..Pick::default() });
+    checks.finish(against.map(|against| VolumeJob { against, csv_order, picks, unit, within, reports }))
 }
 
 /// Number of threads asked for.
@@ -450,6 +472,23 @@ fn ending(target: &Target, what: &'static str, known: &[&str], phrase: &'static 
     let found = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
     let fits = found.is_some_and(|found| known.contains(&found.as_str()));
     if fits || target.is_stream() { Ok(()) } else { Err(UnknownFormat { what, path: path.clone(), known: phrase }) }
+}
+
+/// Reads `X,Y,Z` or `auto`.
+fn local_origin(text: &str) -> Result<LocalOrigin, String> {
+    if text.eq_ignore_ascii_case("auto") {
+        return Ok(LocalOrigin::Auto);
+    }
+    let fields: Vec<&str> = text.split(',').collect();
+    if fields.len() != 3 {
+        return Err(format!(
+            "an origin has three numbers\n  --> --local-origin={text}\n   \
+             = help: give `--local-origin=X,Y,Z`, decimals behind a point, or `--local-origin` alone"
+        ));
+    }
+    let numbers =
+        fields.iter().map(|field| number::read("--local-origin", field, Rule::Coordinate)).collect::<Result<Vec<f64>, _>>()?;
+    Ok(LocalOrigin::At(DVec3::from_slice(&numbers)))
 }
 
 /// Reads `XMIN,YMIN,XMAX,YMAX`.

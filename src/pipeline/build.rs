@@ -1,6 +1,7 @@
 //! The main job: a line to a surface, its files and its report.
 
 use super::error::NoStation;
+use super::heads::{LocalOrigin, Names, coarse, has_colours, heights_over, is_local, local_origin};
 use super::watch::{CHECKING, Observer, PREPARING, READING, READING_GROUND, Stopwatch, WRITING};
 use super::{BuriedError, Error, Given, GroundInput, LineInput, Wishes, check_steepness, figures, on_ground, read_line};
 use crate::ground::{Pieces, Stations, Tallied, axes};
@@ -8,11 +9,13 @@ use crate::kernel::frame::Frame;
 use crate::model::{Bulking, Line, LineFeature, Note, Sheet, Terrain, Tin};
 use crate::plot::{self, Drawing, OnGround, Scene};
 use crate::read::Source;
-use crate::report::{CrossfallFigures, Report, ReportFormat};
+use crate::report::{CrossfallFigures, Report, ReportFormat, write_station_table};
 use crate::setout::{self, Stake};
 use crate::slope::levels::LEVEL_SNAP;
 use crate::surface;
-use crate::write::{Delivery, MeshFormat, Outputs, Target, WriteError, write_lines, write_stakes};
+use crate::write::{
+    Delivery, Earthworks, Head, LineFormat, MeshFormat, Outputs, Target, WriteError, origin, write_origin, write_stakes,
+};
 use std::path::Path;
 
 /// A surface to be built, and where to put it.
@@ -37,13 +40,17 @@ pub struct BuildJob {
     /// Where the finished ground goes; needs existing ground.
     pub finished: Vec<(Target, MeshFormat)>,
     /// Where line work goes.
-    pub lines: Vec<Target>,
+    pub lines: Vec<(Target, LineFormat)>,
     /// Where slope stakes go; they need stations.
     pub stakes: Vec<Target>,
     /// Where drawings go.
     pub plots: Vec<(Target, Drawing)>,
     /// Stations of the cross-sections to be drawn; none: all of `stations`.
     pub sections: Vec<f64>,
+    /// Where tables of the stations go, as CSV; needs stations.
+    pub station_tables: Vec<Target>,
+    /// Origin of the meshes for viewers. `None`: world coordinates in the formats that hold doubles.
+    pub local_origin: Option<LocalOrigin>,
     /// Where reports go.
     pub reports: Vec<(Target, ReportFormat)>,
 }
@@ -62,9 +69,12 @@ pub struct Built {
 enum Content {
     Mesh(MeshFormat),
     Finished(MeshFormat),
-    Lines,
+    Lines(LineFormat),
     Stakes,
     Plot(Drawing),
+    Stations,
+    /// Origin of the mesh of the output with this number.
+    Origin(usize),
     Report(ReportFormat),
 }
 
@@ -97,7 +107,17 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     };
 
     watch.stage_of(WRITING);
-    let crs = source.crs.as_deref();
+    let local = local_origin(job, &design, finished.as_ref());
+    if let Some(note) = coarse(job, &design, finished.as_ref(), local) {
+        watch.note(&note);
+        report.warnings.push(figures::warning(&note));
+    }
+    let names = Names::of(job);
+    let earthworks = report.volumes.as_ref().filter(|_| job.ground.is_some());
+    let earthworks = earthworks.map(|v| Earthworks { ground: &names.ground, cut: v.cut, fill: v.fill });
+    // Of the line, else of the ground.
+    let crs = report.inputs.iter().find_map(|input| input.crs.clone());
+    let crs = crs.as_deref();
     let scene = Scene {
         title: &source.label,
         unit,
@@ -108,13 +128,25 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
         bulking: job.bulking,
         ground: survey.as_ref().map(Survey::scene),
     };
+    let head = Head { crs, unit, name: &names.design, lines: &lines, earthworks, origin: None, depths: None };
+    let about = |format: MeshFormat| Head { origin: Some(local).filter(|_| is_local(job, format)), ..head };
+    let over_ground = |tin: &Tin| survey.as_ref().filter(|_| has_colours(job)).and_then(|s| heights_over(tin, &s.terrain));
+    let (depths, finished_depths) = (over_ground(&design), finished.as_ref().and_then(over_ground));
     let mut put = |index: usize, report: &Report| -> Result<Delivery, WriteError> {
         outputs.write(index, |out| match contents[index] {
-            Content::Mesh(format) => format.write(out, &design),
-            Content::Finished(format) => finished.as_ref().map_or(Ok(()), |tin| format.write(out, tin)),
-            Content::Lines => write_lines(out, &lines, crs).map(drop),
+            Content::Mesh(format) => format.write(out, &design, &Head { depths: depths.as_deref(), ..about(format) }),
+            Content::Finished(format) => {
+                let head = Head { name: &names.finished, depths: finished_depths.as_deref(), ..about(format) };
+                finished.as_ref().map_or(Ok(()), |tin| format.write(out, tin, &head))
+            }
+            Content::Lines(format) => format.write(out, &head),
+            Content::Origin(mesh) => match &targets[mesh] {
+                Target::File(path) => write_origin(out, path, &Head { origin: Some(local), ..head }),
+                Target::Stdout => Ok(()),
+            },
             Content::Stakes => write_stakes(out, &stakes),
             Content::Plot(drawing) => Ok(out.write_all(plot::file(&scene, drawing, &job.sections).as_bytes())?),
+            Content::Stations => write_station_table(out, report),
             Content::Report(format) => format.write(out, report),
         })
     };
@@ -191,7 +223,7 @@ impl Survey {
 impl BuildJob {
     /// Whether an output needs ground and pieces of the works, beyond meshes, line work and figures.
     pub(super) fn draws(&self) -> bool {
-        !self.stakes.is_empty() || !self.plots.is_empty()
+        !self.stakes.is_empty() || !self.plots.is_empty() || has_colours(self)
     }
 }
 
@@ -223,11 +255,23 @@ fn surface_error(source: &Source, cause: surface::SurfaceError) -> Error {
 fn wanted(job: &BuildJob) -> Vec<(Target, Content)> {
     let meshes = job.meshes.iter().map(|(target, format)| (target.clone(), Content::Mesh(*format)));
     let finished = job.finished.iter().map(|(target, format)| (target.clone(), Content::Finished(*format)));
-    let lines = job.lines.iter().map(|target| (target.clone(), Content::Lines));
+    let lines = job.lines.iter().map(|(target, format)| (target.clone(), Content::Lines(*format)));
     let reports = job.reports.iter().map(|(target, format)| (target.clone(), Content::Report(*format)));
+    let tables = job.station_tables.iter().map(|target| (target.clone(), Content::Stations));
     let stakes = job.stakes.iter().map(|target| (target.clone(), Content::Stakes));
     let plots = job.plots.iter().map(|(target, drawing)| (target.clone(), Content::Plot(*drawing)));
-    meshes.chain(finished).chain(lines).chain(stakes).chain(plots).chain(reports).collect()
+    let mut all: Vec<(Target, Content)> = meshes.chain(finished).collect();
+    // Beside every file that does not hold world coordinates stands one that tells its origin.
+    for mesh in 0..all.len() {
+        if let (Target::File(path), Content::Mesh(format) | Content::Finished(format)) = &all[mesh]
+            && is_local(job, *format)
+            && !all[mesh].0.is_stream()
+        {
+            all.push((Target::File(origin::sidecar(path)), Content::Origin(mesh)));
+        }
+    }
+    all.extend(lines.chain(stakes).chain(tables).chain(plots).chain(reports));
+    all
 }
 
 /// The order in which outputs are written. Files first, because they can still be taken back; standard output last; of each kind

@@ -4,8 +4,8 @@ use super::watch::{CHECKING, Observer, READING, Stopwatch, WRITING};
 use super::{Error, figures};
 use crate::mesh::quality::{self, Bound, Kind, Mesh, Options};
 use crate::model::{Defect, Defects, Note, Part, Slope};
-use crate::read::InputFormat;
 use crate::read::terrain::{RawFaces, RawMesh, read_mesh};
+use crate::read::{InputFormat, Pick};
 use crate::report::{CheckReport, Checked, ReportFormat, Warning};
 use crate::terrain;
 use crate::write::{Outputs, Target};
@@ -20,6 +20,8 @@ pub struct CheckJob {
     pub path: PathBuf,
     /// Its format; `None`: from its name, else from its content.
     pub format: Option<InputFormat>,
+    /// Which surface is meant of several.
+    pub pick: Pick,
     /// A slope to be kept.
     pub slope: Option<SlopeWish>,
     /// Plan distance within which vertices and edges should be joined; `None`: see [`Options::gap`].
@@ -61,12 +63,14 @@ pub fn check(job: &CheckJob, observer: &dyn Observer) -> Result<Looked, Error> {
     let targets: Vec<Target> = job.reports.iter().map(|(target, _)| target.clone()).collect();
     let mut outputs = Outputs::open(&targets, std::slice::from_ref(&job.path))?;
     watch.stage_of(READING);
-    let raw = read_mesh(&job.path, job.format)?;
+    let raw = read_mesh(&job.path, job.format, &job.pick)?;
     raw.notes.iter().for_each(|note| watch.note(note));
     let bound = job.slope.as_ref().map(|wish| bound(wish, &raw)).transpose()?;
     watch.stage_of(CHECKING);
     let options = Options { gap: job.gap, places: job.places, bound };
-    let report = look(raw, &options, &watch);
+    let unit = raw.source.unit.unwrap_or_default();
+    let mut report = look(raw, &options, &watch);
+    report.units = unit.into();
     watch.stage_of(WRITING);
     // Standard output last: files can still be taken back.
     let mut order: Vec<usize> = (0..targets.len()).collect();
@@ -80,6 +84,7 @@ pub fn check(job: &CheckJob, observer: &dyn Observer) -> Result<Looked, Error> {
 
 fn look(raw: RawMesh, options: &Options, watch: &Stopwatch<'_>) -> CheckReport {
     let input = figures::input("mesh", &raw.source);
+    let units = raw.source.unit.unwrap_or_default().into();
     let count = raw.faces.len();
     let (triangles, faces) = match raw.faces {
         RawFaces::Triangles(triangles) => (triangles, Vec::new()),
@@ -100,7 +105,7 @@ fn look(raw: RawMesh, options: &Options, watch: &Stopwatch<'_>) -> CheckReport {
     let warnings = watch.notes().into_iter().map(warn).collect();
     let size = (raw.vertices.len(), count, triangles.len());
     let checked = Checked { vertices: size.0, faces: size.1, triangles: size.2, names: &raw.names, options };
-    CheckReport::new(input, &checked, &quality, warnings)
+    CheckReport { units, ..CheckReport::new(input, &checked, &quality, warnings) }
 }
 
 /// Faces as triangles, and the face each is of. Faces that cannot be split properly, because their outline crosses itself, are

@@ -7,8 +7,8 @@ pub(super) use on_ground::{Inputs, ground_report};
 use crate::model::{Chain, Design, Line, Note, Sheet, Tin};
 use crate::read::Source;
 use crate::report::{
-    Balance, BuriedStretch, Certificate, Depths, Detail, Input, LineFigures, Reference, Report, SCHEMA, Slopes, SurfaceFigures,
-    Timing, Tool, Units, Volumes, Warning,
+    Balance, BuriedStretch, Certificate, Depths, DesignFigures, Detail, Input, LineFigures, METHOD, METHOD_TEXT, Reference,
+    Report, SCHEMA, SIGN_RULE, Slopes, SurfaceFigures, Timing, Tool, Units, Volumes, Warning,
 };
 use crate::surface::{self, Areas, Surface};
 use std::collections::BTreeMap;
@@ -17,8 +17,8 @@ use std::collections::BTreeMap;
 pub(super) fn report(line: &Line, source: &Source, design: &Design, surface: &Surface, notes: &[Note]) -> Report {
     let slope = Some(design.slope.into());
     let slopes = match design.sheet {
-        Sheet::Falling => Slopes { fill: slope, cut: None },
-        Sheet::Rising => Slopes { cut: slope, fill: None },
+        Sheet::Falling => Slopes { fill: slope, ..Slopes::default() },
+        Sheet::Rising => Slopes { cut: slope, ..Slopes::default() },
     };
     let mut levels = surface.levels.clone();
     levels.sort_by(f64::total_cmp);
@@ -33,6 +33,7 @@ pub(super) fn report(line: &Line, source: &Source, design: &Design, surface: &Su
         tool: Tool::default(),
         inputs: vec![input("line", source)],
         units: Units::default(),
+        design: DesignFigures::of([design], design.interval),
         slopes,
         line: line_figures(line, (surface.simplified, surface.simplified_max), buried),
         extent: design.extent.into(),
@@ -40,10 +41,12 @@ pub(super) fn report(line: &Line, source: &Source, design: &Design, surface: &Su
         surface: surface_figures(&surface.tin, &surface.areas),
         certificate: certificate(&surface.certificate),
         volumes: Some(Volumes {
-            method: "prisms".to_owned(),
+            method: METHOD,
+            method_text: METHOD_TEXT,
             cut: v.cut,
             fill: v.fill,
             net: v.cut - v.fill,
+            sign_rule: SIGN_RULE,
             balance: Balance::of(v.cut, v.fill),
             error_bound: v.error_bound,
             complete: true,
@@ -67,10 +70,12 @@ pub(super) fn report(line: &Line, source: &Source, design: &Design, surface: &Su
 }
 
 fn warnings(notes: &[Note]) -> Vec<Warning> {
-    notes
-        .iter()
-        .map(|note| Warning { code: note.code.to_owned(), message: note.message.clone(), details: BTreeMap::new() })
-        .collect()
+    notes.iter().map(warning).collect()
+}
+
+/// A note as the report tells it.
+pub(super) fn warning(note: &Note) -> Warning {
+    Warning { code: note.code.to_owned(), message: note.message.clone(), details: BTreeMap::new() }
 }
 
 /// Code of the note about buried stretches.
@@ -113,6 +118,7 @@ pub(super) fn input(role: &str, source: &Source) -> Input {
     Input {
         role: role.to_owned(),
         path: if source.label == "<stdin>" { "-".to_owned() } else { source.label.clone() },
+        bytes: source.bytes,
         sha256: source.sha256.clone(),
         format: source.format.name().to_owned(),
         crs: source.crs.clone(),

@@ -1,14 +1,15 @@
 //! Cut and fill between two surfaces that are given.
 
 use super::watch::{CHECKING, Observer, Stopwatch, WRITING};
-use super::{Error, read_ground};
+use super::{Error, figures, read_ground, units};
+use crate::kernel::sum::Sum;
 use crate::mesh::inside::inside;
-use crate::model::{Chain, Defect, Defects, Note, Role, Terrain};
+use crate::model::{Chain, Defect, Defects, LengthUnit, Note, Role, Terrain};
 use crate::overlay::{self, Between, OverlayError, Surface};
 use crate::read::terrain::TerrainOptions;
-use crate::read::{self, ColumnOrder, ReadOptions, Source};
+use crate::read::{self, ColumnOrder, Pick, ReadError, ReadOptions, Source};
 use crate::report::between::{BetweenDepths, BetweenReference, BetweenReport, BetweenTiming, BetweenVolumes, MeshFigures};
-use crate::report::{Balance, Detail, Input, ReportFormat, SCHEMA, Tool, Warning};
+use crate::report::{Balance, Detail, Input, METHOD, METHOD_TEXT, ReportFormat, SCHEMA, SIGN_RULE, Tool, Warning};
 use crate::surface::Watch;
 use crate::validate;
 use crate::write::{Outputs, Target};
@@ -30,6 +31,10 @@ pub struct VolumeJob {
     pub against: Against,
     /// Columns of text files of points without a header.
     pub csv_order: Option<ColumnOrder>,
+    /// What is meant of the design, and of the existing surface, where a file holds several.
+    pub picks: [Pick; 2],
+    /// Unit of the run, if asked for; `None`: that of the design, else of the existing surface, else metres.
+    pub unit: Option<LengthUnit>,
     /// A file of rings; only what lies inside counts.
     pub within: Option<PathBuf>,
     /// Where reports go.
@@ -123,13 +128,23 @@ pub fn volume(job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Erro
     let inputs: Vec<PathBuf> = design.into_iter().chain([existing]).chain(&job.within).cloned().collect();
     let mut outputs = Outputs::open(&targets, &inputs)?;
 
-    let options = TerrainOptions { csv_order: job.csv_order.clone(), ..TerrainOptions::default() };
-    let read = |path: &Path, unit, surface: Surface| read_ground(path, &options, unit, &Named { watch: &watch, surface });
-    let design = design.map(|path| read(path, None, Surface::Design)).transpose()?;
-    let declared = design.as_ref().and_then(|(_, source)| source.unit);
-    let existing = read(existing, declared, Surface::Existing)?;
+    let [of_design, of_existing] = &job.picks;
+    let read = |path: &Path, pick: &Pick, unit, surface: Surface| {
+        let options =
+            TerrainOptions { csv_order: job.csv_order.clone(), pick: pick.clone(), unit: job.unit, ..TerrainOptions::default() };
+        read_ground(path, &options, unit, &Named { watch: &watch, surface })
+    };
+    let design = design.map(|path| read(path, of_design, job.unit, Surface::Design)).transpose()?;
+    let declared = job.unit.or(design.as_ref().and_then(|(_, source)| source.unit));
+    let existing = read(existing, of_existing, declared, Surface::Existing).map_err(|error| match error {
+        // With a design beside it, the existing surface has an option of its own.
+        Error::Read(ReadError::Content { what, at, figures, help }) if design.is_some() => {
+            ReadError::Content { what, at, figures, help: help.replace("--surface", "--existing-surface") }.into()
+        }
+        other => other,
+    })?;
     let unit = declared.or(existing.1.unit).unwrap_or_default();
-    let area = job.within.as_ref().map(|path| rings(path, &watch)).transpose()?;
+    let area = job.within.as_ref().map(|path| rings(path, unit, &watch)).transpose()?;
 
     watch.stage_of(VOLUMES);
     let within = area.as_ref().map(|(area, _)| area);
@@ -144,17 +159,15 @@ pub fn volume(job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Erro
     notes(&found).iter().for_each(|note| Stopwatch::note(&watch, note));
 
     let roles = design.is_some().then_some("design").into_iter().chain(["existing"]);
-    let mut inputs: Vec<Input> = roles.zip(sources()).map(|(role, source)| input(role, source)).collect();
-    inputs.extend(area.iter().map(|(_, source)| input("within", source)));
+    let mut inputs: Vec<Input> = roles.zip(sources()).map(|(role, source)| figures::input(role, source)).collect();
+    inputs.extend(area.iter().map(|(_, source)| figures::input("within", source)));
     let meshes = design.iter().map(|d| ("design", &d.0)).chain([("existing", &existing.0)]);
     let mut report = BetweenReport {
         schema: SCHEMA,
         tool: Tool::default(),
         inputs,
         units: unit.into(),
-        meshes: meshes
-            .map(|(role, mesh)| MeshFigures { role, vertices: mesh.vertices.len(), triangles: mesh.triangles.len() })
-            .collect(),
+        meshes: meshes.map(|(role, mesh)| mesh_figures(role, mesh)).collect(),
         volumes: volumes(&found, &job.against, &existing.1),
         areas: found.areas.into(),
         depths: BetweenDepths::from(&found),
@@ -180,23 +193,40 @@ fn volumes(found: &Between, against: &Against, existing: &Source) -> BetweenVolu
         Against::Elevation { elevation, .. } => BetweenReference::Plane { elevation: *elevation },
     };
     BetweenVolumes {
-        method: "prisms",
+        method: METHOD,
+        method_text: METHOD_TEXT,
         cut: found.cut,
         fill: found.fill,
         net: found.net(),
+        sign_rule: SIGN_RULE,
         balance: Balance::of(found.cut, found.fill),
+        complete: found.areas.design_uncovered == 0.0,
         cells: (found.cells > 0).then_some(found.cells),
         reference,
     }
 }
 
-fn input(role: &str, source: &Source) -> Input {
-    Input {
-        role: role.to_owned(),
-        path: if source.label == "<stdin>" { "-".to_owned() } else { source.label.clone() },
-        sha256: source.sha256.clone(),
-        format: source.format.name().to_owned(),
-        crs: source.crs.clone(),
+/// Size, heights and areas of a mesh as it takes part.
+fn mesh_figures(role: &'static str, mesh: &Terrain) -> MeshFigures {
+    let (mut plan, mut surface) = (Sum::default(), Sum::default());
+    let (mut z_min, mut z_max) = (f64::INFINITY, f64::NEG_INFINITY);
+    for [a, b, c] in (0..mesh.triangles.len()).map(|t| mesh.corners(t)) {
+        let normal = (b - a).cross(c - a);
+        plan.add(0.5 * normal.z.abs());
+        surface.add(0.5 * normal.length());
+        for corner in [a, b, c] {
+            let z = mesh.frame.to_world(corner).z;
+            (z_min, z_max) = (z_min.min(z), z_max.max(z));
+        }
+    }
+    MeshFigures {
+        role,
+        vertices: mesh.vertices.len(),
+        triangles: mesh.triangles.len(),
+        z_min,
+        z_max,
+        plan_area: plan.value(),
+        surface_area: surface.value(),
     }
 }
 
@@ -239,9 +269,12 @@ fn warnings(notes: &[Note], found: &Between) -> Vec<Warning> {
 }
 
 /// The area inside the rings of a file. Elevations do not matter.
-fn rings(path: &Path, watch: &Stopwatch<'_>) -> Result<(Terrain, Source), Error> {
+fn rings(path: &Path, unit: LengthUnit, watch: &Stopwatch<'_>) -> Result<(Terrain, Source), Error> {
     watch.stage_of(CHECKING);
-    let mut raw = read::read_line(path, &ReadOptions::default())?;
+    let mut raw = read::read_line(path, &ReadOptions { unit: Some(unit), ..ReadOptions::default() })?;
+    if let Some(note) = units::convert_line(&mut raw, unit) {
+        watch.note(&note);
+    }
     raw.lines.iter_mut().flat_map(|line| &mut line.vertices).for_each(|v| v.z = Some(0.0));
     let checked = validate::check(&raw, &validate::Options::default())?;
     let label = &raw.source.label;

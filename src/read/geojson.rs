@@ -3,6 +3,8 @@
 mod crs;
 mod diagnose;
 
+pub(in crate::read) use crs::is_geographic;
+
 use super::{CoordinateKind, RawLine, RawShape, RawVertex, ReadError, Source};
 use crate::model::{Defect, Defects, Note};
 use ::geojson::{Feature, FeatureCollection, Geometry, GeometryValue, JsonValue, Position};

@@ -1,5 +1,6 @@
 //! Bytes → raw records with positions. Nothing is judged here beyond what a record needs to be read.
 
+mod alignment;
 mod columns;
 mod csv;
 mod decimal;
@@ -109,6 +110,8 @@ pub struct Source {
     pub label: String,
     /// Its format.
     pub format: InputFormat,
+    /// Size in bytes.
+    pub bytes: u64,
     /// SHA-256 of the bytes, in lower-case hexadecimal digits.
     pub sha256: String,
     /// Name of the coordinate reference system as the file gives it.
@@ -199,18 +202,20 @@ pub struct RawPoints {
 pub struct ReadOptions {
     /// Its format; `None`: from the extension. Needed for standard input.
     pub format: Option<InputFormat>,
-    /// The columns of a text file without header.
+    /// The columns of a text file without header; for LandXML `enz`, if easting comes first in it.
     pub csv_order: Option<ColumnOrder>,
     /// What is meant of a file that holds several things.
     pub pick: Pick,
-    /// How far the chords of arcs, clothoids and vertical curves may lie off them, in the length unit of the file; positive.
+    /// How far the chords of arcs, clothoids and vertical curves may lie off them; positive. In `unit`, else in that of the file.
     pub chord: f64,
+    /// Unit that was asked for: that of files that should declare one and do not.
+    pub unit: Option<LengthUnit>,
 }
 
 impl Default for ReadOptions {
     /// Nothing known, everything taken, chords within [`DEFAULT_CHORD`].
     fn default() -> Self {
-        Self { format: None, csv_order: None, pick: Pick::default(), chord: DEFAULT_CHORD }
+        Self { format: None, csv_order: None, pick: Pick::default(), chord: DEFAULT_CHORD, unit: None }
     }
 }
 
@@ -242,7 +247,7 @@ pub fn parse_line(label: &str, bytes: &[u8], options: &ReadOptions) -> Result<Ra
     let format = options.format.unwrap_or(InputFormat::GeoJson);
     let mut notes = Vec::new();
     let mut source = source(label, format, bytes);
-    let lines = match format {
+    let mut lines = match format {
         InputFormat::GeoJson => geojson::lines(&decode::text(label, bytes, &mut notes)?, &mut source, &mut notes)?,
         InputFormat::Csv => {
             csv::lines(&decode::text(label, bytes, &mut notes)?, &mut source, options.csv_order.as_ref(), &mut notes)?
@@ -254,6 +259,9 @@ pub fn parse_line(label: &str, bytes: &[u8], options: &ReadOptions) -> Result<Ra
             return Err(no_line(label, format));
         }
     };
+    if matches!(format, InputFormat::GeoJson | InputFormat::Csv) {
+        lines = options.pick.named(label, lines)?;
+    }
     Ok(RawInput { source, lines, notes })
 }
 
@@ -322,5 +330,6 @@ fn load(path: &Path, options: &ReadOptions) -> Result<(String, InputFormat, Vec<
 
 fn source(label: &str, format: InputFormat, bytes: &[u8]) -> Source {
     let sha256 = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-    Source { label: label.to_owned(), format, sha256, crs: None, kind: CoordinateKind::Unknown, unit: None }
+    let size = bytes.len() as u64;
+    Source { label: label.to_owned(), format, bytes: size, sha256, crs: None, kind: CoordinateKind::Unknown, unit: None }
 }

@@ -1,5 +1,8 @@
 //! What is meant of a file that holds several things.
 
+use super::terrain::{clip, refuse};
+use super::{RawLine, RawShape, ReadError};
+
 /// Classification of ground points in LAS files (ASPRS LAS 1.4, table 9).
 #[allow(dead_code, reason = "used with the feature `las`")]
 pub(super) const GROUND_CLASS: u8 = 2;
@@ -15,4 +18,71 @@ pub struct Pick {
     pub surface: Option<String>,
     /// Classes of points of a cloud; empty: [`GROUND_CLASS`].
     pub classes: Vec<u8>,
+}
+
+impl Pick {
+    /// The lines of the names asked for, of a file whose features have names; all if none was asked for.
+    ///
+    /// # Errors
+    /// If there is no line of one of the names, or none but breaklines.
+    pub(super) fn named(&self, label: &str, mut lines: Vec<RawLine>) -> Result<Vec<RawLine>, ReadError> {
+        const LISTED: usize = 20;
+        if self.features.is_empty() {
+            return Ok(lines);
+        }
+        let has = |line: &RawLine, name: &str| line.name.as_deref() == Some(name);
+        let names = |lines: &[RawLine]| {
+            let mut names: Vec<String> = Vec::new();
+            for line in lines {
+                let name = format!("`{}`", clip(line.name.as_deref().unwrap_or("").as_bytes()));
+                if names.len() < LISTED && !names.contains(&name) {
+                    names.push(name);
+                }
+            }
+            format!("{} lines, among them {}", lines.len(), names.join(", "))
+        };
+        let help = "give names from the file, or leave `--feature` out";
+        if let Some(name) = self.features.iter().find(|name| !lines.iter().any(|line| has(line, name))) {
+            let what = format!("there is no line `{}`", clip(name.as_bytes()));
+            return Err(refuse(&what, label, names(&lines), help));
+        }
+        if lines.iter().all(|line| line.shape == RawShape::Breakline || !self.features.iter().any(|name| has(line, name))) {
+            return Err(refuse("the lines asked for are breaklines, which carry no slopes", label, names(&lines), help));
+        }
+        lines.retain(|line| self.features.iter().any(|name| has(line, name)));
+        Ok(lines)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::read::{InputFormat, ReadOptions, parse_line};
+
+    #[test]
+    fn lines_by_name() {
+        let feature = |name: &str, role: &str| {
+            format!(
+                r#"{{"type": "Feature", "properties": {{"name": "{name}"{role}}}, "geometry": {{"type": "LineString", "coordinates":
+                [[0, 0, 1], [9, 0, 1]]}}}}"#
+            )
+        };
+        let text = format!(
+            r#"{{"type": "FeatureCollection", "features": [{}, {}, {}]}}"#,
+            feature("a", ""),
+            feature("b", ""),
+            feature("c", r#", "role": "breakline""#)
+        );
+        let read = |names: &[&str]| {
+            let mut options = ReadOptions::of(InputFormat::GeoJson);
+            options.pick.features = names.iter().map(|&name| name.to_owned()).collect();
+            let raw = parse_line("a", text.as_bytes(), &options).map_err(|e| e.to_string())?;
+            Ok::<_, String>(raw.lines.into_iter().filter_map(|line| line.name).collect::<Vec<_>>())
+        };
+        assert_eq!(read(&[]), Ok(vec!["a".into(), "b".into(), "c".into()]));
+        assert_eq!(read(&["b"]), Ok(vec!["b".into()]));
+        assert_eq!(read(&["c", "a"]), Ok(vec!["a".into(), "c".into()]));
+        assert!(read(&["c"]).unwrap_err().contains("are breaklines"));
+        let message = read(&["a", "x"]).unwrap_err();
+        assert!(message.contains("no line `x`") && message.contains("3 lines, among them `a`, `b`, `c`"), "{message}");
+    }
 }

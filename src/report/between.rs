@@ -1,14 +1,18 @@
 //! The report of `slopegen volume`: two surfaces, or a surface and a plane.
 
+use super::SCHEMA;
 use super::model::{Input, Tool, Units, Warning};
-use super::volumes::Balance;
+use super::volumes::{Balance, METHOD, METHOD_TEXT, SIGN_RULE, mean};
 use crate::overlay::{Areas, Between, Depth};
+use schemars::JsonSchema;
 use serde::Serialize;
 
-/// Everything a comparison has to tell. Keys that mean the same as in [`super::Report`] have the same names.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// The report of `slopegen volume`. Keys that mean the same as in the report of `build` have the same names.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "VolumeReport")]
 pub struct BetweenReport {
-    /// [`super::SCHEMA`].
+    /// Name of the schema.
+    #[schemars(extend("const" = SCHEMA))]
     pub schema: &'static str,
     /// The program.
     pub tool: Tool,
@@ -31,29 +35,52 @@ pub struct BetweenReport {
 }
 
 /// A mesh as read.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct MeshFigures {
-    /// `design` or `existing`.
+    /// What it was read for.
+    #[schemars(extend("enum" = ["design", "existing"]))]
     pub role: &'static str,
-    /// Its vertices.
+    /// Vertices of the mesh.
     pub vertices: usize,
-    /// Its triangles.
+    /// Triangles of the mesh.
     pub triangles: usize,
+    /// Lowest elevation.
+    pub z_min: f64,
+    /// Highest elevation.
+    pub z_max: f64,
+    /// Area in plan.
+    #[schemars(range(min = 0))]
+    pub plan_area: f64,
+    /// Area of the surface, measured in its triangles.
+    #[schemars(range(min = 0))]
+    pub surface_area: f64,
 }
 
-/// Cut and fill.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// Cut and fill between two surfaces.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "ComparedVolumes")]
 pub struct BetweenVolumes {
-    /// `prisms`: exact for the triangles given.
+    /// How they were computed; `prisms`: exact for the triangles given.
+    #[schemars(extend("const" = METHOD))]
     pub method: &'static str,
+    /// The method in words.
+    #[schemars(extend("const" = METHOD_TEXT))]
+    pub method_text: &'static str,
     /// Volume to be dug away; not negative.
+    #[schemars(range(min = 0))]
     pub cut: f64,
     /// Volume to be brought; not negative.
+    #[schemars(range(min = 0))]
     pub fill: f64,
-    /// `cut − fill`.
+    /// `cut − fill`: see `sign_rule`.
     pub net: f64,
+    /// What the sign of `net` says.
+    #[schemars(extend("const" = SIGN_RULE))]
+    pub sign_rule: &'static str,
     /// The sign of `net` in a word.
     pub balance: Balance,
+    /// Whether all of the design lies over the existing surface; what does not has no volume: see `areas.uncovered`.
+    pub complete: bool,
     /// Prisms summed up: cells of the common refinement; none against a plane.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cells: Option<usize>,
@@ -62,8 +89,9 @@ pub struct BetweenVolumes {
 }
 
 /// What the volumes are taken against.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
+#[schemars(rename = "ComparedReference")]
 pub enum BetweenReference {
     /// The existing surface of a file.
     Terrain {
@@ -78,20 +106,27 @@ pub enum BetweenReference {
 }
 
 /// Plan areas; not negative.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "ComparedAreas")]
 pub struct BetweenAreas {
-    /// Where the existing surface is higher.
+    /// Area where the existing surface is higher.
+    #[schemars(range(min = 0))]
     pub cut: f64,
-    /// Where the design is higher.
+    /// Area where the design is higher.
+    #[schemars(range(min = 0))]
     pub fill: f64,
-    /// Where both are the same.
+    /// Area where both are the same.
+    #[schemars(range(min = 0))]
     pub unaffected: f64,
-    /// Design that does not lie over the existing surface: not in the volumes.
+    /// Area of the design that does not lie over the existing surface: not in the volumes.
+    #[schemars(range(min = 0))]
     pub uncovered: f64,
-    /// Existing surface not under the design.
+    /// Area of the existing surface not under the design.
+    #[schemars(range(min = 0))]
     pub existing_uncovered: f64,
     /// Area of the rings the comparison was restricted to.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
     pub within: Option<f64>,
 }
 
@@ -109,22 +144,33 @@ impl From<Areas> for BetweenAreas {
 }
 
 /// Greatest vertical depths, not negative, and where they are.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "ComparedDepths")]
 pub struct BetweenDepths {
-    /// Of cut.
+    /// Greatest depth of cut.
+    #[schemars(range(min = 0))]
     pub cut_max: f64,
-    /// Of fill.
+    /// Greatest depth of fill.
+    #[schemars(range(min = 0))]
     pub fill_max: f64,
-    /// Where that of cut is found.
+    /// Mean depth of cut: its volume over its area; left out where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub cut_mean: Option<f64>,
+    /// Mean depth of fill: its volume over its area; left out where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub fill_mean: Option<f64>,
+    /// Where the greatest depth of cut is found.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cut_max_at: Option<Spot>,
-    /// Where that of fill is found.
+    /// Where the greatest depth of fill is found.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fill_max_at: Option<Spot>,
 }
 
 /// A point of the design, in world coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Spot {
     /// Easting.
     pub x: f64,
@@ -141,20 +187,26 @@ impl From<&Between> for BetweenDepths {
         Self {
             cut_max: depth(b.deepest_cut),
             fill_max: depth(b.deepest_fill),
+            cut_mean: mean(b.cut, b.areas.cut),
+            fill_mean: mean(b.fill, b.areas.fill),
             cut_max_at: spot(b.deepest_cut),
             fill_max_at: spot(b.deepest_fill),
         }
     }
 }
 
-/// Seconds spent.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+/// Seconds spent. The one part that differs from run to run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "ComparedTiming")]
 pub struct BetweenTiming {
     /// Reading and checking.
+    #[schemars(range(min = 0))]
     pub read: f64,
     /// Areas and volumes.
+    #[schemars(range(min = 0))]
     pub volume: f64,
     /// All of it, up to the report.
+    #[schemars(range(min = 0))]
     pub total: f64,
 }
 
@@ -168,6 +220,7 @@ pub(super) mod testing {
         let input = |role: &str, path: &str, format: &str| Input {
             role: role.into(),
             path: path.into(),
+            bytes: 12_345,
             sha256: "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08".into(),
             format: format.into(),
             crs: None,
@@ -182,15 +235,34 @@ pub(super) mod testing {
             ],
             units: Units::default(),
             meshes: vec![
-                MeshFigures { role: "design", vertices: 1200, triangles: 2100 },
-                MeshFigures { role: "existing", vertices: 500_000, triangles: 999_990 },
+                MeshFigures {
+                    role: "design",
+                    vertices: 1200,
+                    triangles: 2100,
+                    z_min: 24.5,
+                    z_max: 33.25,
+                    plan_area: 11_986.46,
+                    surface_area: 12_345.5,
+                },
+                MeshFigures {
+                    role: "existing",
+                    vertices: 500_000,
+                    triangles: 999_990,
+                    z_min: -3.0,
+                    z_max: 61.5,
+                    plan_area: 12_983.21,
+                    surface_area: 13_000.0,
+                },
             ],
             volumes: BetweenVolumes {
-                method: "prisms",
+                method: METHOD,
+                method_text: METHOD_TEXT,
                 cut: 7395.802,
                 fill: 11_623.03,
                 net: 7395.802 - 11_623.03,
+                sign_rule: SIGN_RULE,
                 balance: Balance::of(7395.802, 11_623.03),
+                complete: false,
                 cells: Some(12_345),
                 reference: BetweenReference::Terrain { path: "site/ground.ply".into() },
             },
@@ -205,6 +277,8 @@ pub(super) mod testing {
             depths: BetweenDepths {
                 cut_max: 2.5,
                 fill_max: 4.75,
+                cut_mean: mean(7395.802, 4956.81),
+                fill_mean: mean(11_623.03, 7013.9),
                 cut_max_at: Some(Spot { x: 500_010.5, y: 5_400_020.25, z: 31.5 }),
                 fill_max_at: Some(Spot { x: 500_110.5, y: 5_400_120.25, z: 27.5 }),
             },
@@ -222,6 +296,7 @@ pub(super) mod testing {
         report.inputs.truncate(1);
         report.meshes.truncate(1);
         report.volumes.cells = None;
+        report.volumes.complete = true;
         report.volumes.reference = BetweenReference::Plane { elevation: 30.5 };
         report.areas = BetweenAreas { cut: 1.0, ..BetweenAreas::default() };
         report.depths = BetweenDepths::default();

@@ -6,23 +6,25 @@ mod tests;
 mod text;
 
 pub use figures::*;
-pub use text::render_check;
+pub use text::{render_check, render_check_markdown};
 
 use super::json::write_json;
 use super::{Input, ReportFormat, Tool, Units, Warning};
 use crate::mesh::quality::{self, ANGLE_BINS, LoopKind, Quality};
 use crate::write::EncodeError;
 use glam::DVec3;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::io::Write;
 
 /// Name of the schema, first key of every report of a check.
 pub const CHECK_SCHEMA: &str = "slopegen-check/1";
 
-/// Everything a check has to tell.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// The report of `slopegen check`.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct CheckReport {
-    /// [`CHECK_SCHEMA`].
+    /// Name of the schema.
+    #[schemars(extend("const" = CHECK_SCHEMA))]
     pub schema: &'static str,
     /// The program.
     pub tool: Tool,
@@ -52,7 +54,7 @@ pub struct CheckReport {
 }
 
 /// Whether all is well.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Verdict {
     /// The surface is sound, and keeps the slope if one was asked for. Otherwise the program exits with 5.
     pub passed: bool,
@@ -64,7 +66,7 @@ pub struct Verdict {
 }
 
 /// The mesh as a whole.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct MeshFigures {
     /// Vertices in the file.
     pub vertices: usize,
@@ -173,6 +175,7 @@ impl ReportFormat {
         match self {
             Self::Json => write_json(out, report),
             Self::Text => Ok(out.write_all(render_check(report).as_bytes())?),
+            Self::Markdown => Ok(out.write_all(render_check_markdown(report).as_bytes())?),
         }
     }
 }

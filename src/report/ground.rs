@@ -1,46 +1,54 @@
 //! What there is to tell where a design meets existing ground.
 
-use super::volumes::{Balance, BulkingFigures, Depths};
+use super::volumes::{Balance, BulkingFigures, Depths, mean};
 use super::{CutFillFigures, DepthPlace, SlopeFigures, VolumeParts};
 use crate::ground::{Amounts, CutFill, Deepest, Section, SectionFigures, SectionSlope, Sectioned, Stations, Tallied, mass_haul};
 use crate::kernel::frame::Frame;
 use crate::model::Bulking;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Plan areas of the ground.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct GroundAreas {
-    /// Where the design lies below the ground.
+    /// Plan area where the design lies below the ground.
+    #[schemars(range(min = 0))]
     pub cut: f64,
-    /// Where it lies above.
+    /// Plan area where it lies above.
+    #[schemars(range(min = 0))]
     pub fill: f64,
-    /// The rest of the ground.
+    /// Plan area of the rest of the ground.
+    #[schemars(range(min = 0))]
     pub unaffected: f64,
 }
 
 /// The line where slopes and ground meet. Lengths are in plan.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Daylight {
-    /// Closed loops.
+    /// Number of closed loops.
     pub loops: usize,
-    /// Length of all of it.
+    /// Length of the line.
+    #[schemars(range(min = 0))]
     pub length: f64,
-    /// Length along which slopes end at the edge of the ground, before they meet it.
+    /// Length along which the works end without meeting the ground.
+    #[schemars(range(min = 0))]
     pub open_length: f64,
     /// The part of `length` above cut slopes.
+    #[schemars(range(min = 0))]
     pub cut_length: f64,
     /// The part of `length` below fill slopes.
+    #[schemars(range(min = 0))]
     pub fill_length: f64,
 }
 
 /// The existing ground.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct TerrainFigures {
-    /// Vertices of the file.
+    /// Vertices of the ground.
     pub vertices: usize,
-    /// Its triangles.
+    /// Triangles of the ground.
     pub triangles: usize,
-    /// Those the works lie on.
+    /// Triangles near the works: within reach of the slopes by a coarse bound, and under the platform.
     pub triangles_used: usize,
     /// Lowest elevation.
     pub z_min: f64,
@@ -48,32 +56,32 @@ pub struct TerrainFigures {
     pub z_max: f64,
 }
 
-/// The finished ground.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+/// The finished ground, as written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct FinishedFigures {
-    /// Its vertices.
+    /// Vertices of the finished ground.
     pub vertices: usize,
-    /// Its triangles.
+    /// Triangles of the finished ground.
     pub triangles: usize,
 }
 
 /// The slopes as seen in sections perpendicular to the line.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct SectionSlopes {
-    /// Of the rising sheet.
+    /// Side slope of cut in a section.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cut: Option<SlopeRange>,
-    /// Of the falling sheet.
+    /// Side slope of fill in a section.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fill: Option<SlopeRange>,
 }
 
 /// Flattest and steepest slope.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct SlopeRange {
-    /// The flattest.
+    /// The flattest over the segments of the line.
     pub min: SlopeFigures,
-    /// The steepest.
+    /// The steepest over the segments of the line.
     pub max: SlopeFigures,
 }
 
@@ -84,7 +92,8 @@ impl From<SectionSlope> for SlopeRange {
 }
 
 /// Cut and fill between two stations of a line.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(extend("dependentRequired" = {"section": ["average_end_area", "prismoidal"]}))]
 pub struct StationRow {
     /// Name of the line.
     pub chain: String,
@@ -93,16 +102,20 @@ pub struct StationRow {
     /// Station where it ends.
     pub to: f64,
     /// Exact volume to be dug away on works whose foot lies between the stations.
+    #[schemars(range(min = 0))]
     pub cut: f64,
-    /// Exact volume to be brought likewise.
+    /// Exact volume to be brought there.
+    #[schemars(range(min = 0))]
     pub fill: f64,
     /// Plan area of cut.
+    #[schemars(range(min = 0))]
     pub cut_area: f64,
     /// Plan area of fill.
+    #[schemars(range(min = 0))]
     pub fill_area: f64,
     /// Cut − fill from the beginning of the line to the end of the interval.
     pub net_cumulative: f64,
-    /// The same where all soil is compacted.
+    /// The same where all soil is compacted: cut × (1 − shrink) − fill.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub net_cumulative_compacted: Option<f64>,
     /// The cross-sections, and the volumes worked out from them.
@@ -111,9 +124,9 @@ pub struct StationRow {
 }
 
 /// An interval as cross-sections see it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct SectionRow {
-    /// The sections.
+    /// Cross-sections at both ends and half-way.
     pub section: ThreeSections,
     /// Volumes by average end area.
     pub average_end_area: CutFillFigures,
@@ -122,26 +135,28 @@ pub struct SectionRow {
 }
 
 /// The sections of an interval.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ThreeSections {
-    /// Where it begins.
+    /// Section where the interval begins.
     pub from: EndArea,
-    /// Half-way.
+    /// Section half-way.
     pub middle: EndArea,
-    /// Where it ends.
+    /// Section where the interval ends.
     pub to: EndArea,
 }
 
 /// End areas of a section, and how far it reaches.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct EndArea {
     /// Area of cut.
+    #[schemars(range(min = 0))]
     pub cut: f64,
     /// Area of fill.
+    #[schemars(range(min = 0))]
     pub fill: f64,
-    /// Reach to the left of the line.
+    /// Reach of the works to the left of the line.
     pub left: f64,
-    /// Reach to the right.
+    /// Reach of the works to the right of the line.
     pub right: f64,
 }
 
@@ -169,15 +184,19 @@ impl From<CutFill> for CutFillFigures {
 }
 
 /// Works that belong to no station.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct PadRow {
     /// Volume to be dug away.
+    #[schemars(range(min = 0))]
     pub cut: f64,
     /// Volume to be brought.
+    #[schemars(range(min = 0))]
     pub fill: f64,
     /// Plan area of cut.
+    #[schemars(range(min = 0))]
     pub cut_area: f64,
     /// Plan area of fill.
+    #[schemars(range(min = 0))]
     pub fill_area: f64,
 }
 
@@ -244,6 +263,8 @@ impl Depths {
         Self {
             cut_max: cut.map_or(0.0, |deepest| deepest.depth),
             fill_max: fill.map_or(0.0, |deepest| deepest.depth),
+            cut_mean: mean(tallied.total.cut, tallied.total.cut_area),
+            fill_mean: mean(tallied.total.fill, tallied.total.fill_area),
             cut_max_at: cut.map(place),
             fill_max_at: fill.map(place),
         }

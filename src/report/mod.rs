@@ -1,10 +1,13 @@
-//! What a run has to tell: as data ([`Report`]), as JSON for machines, as text for people.
+//! What a run has to tell: as data ([`Report`]), as JSON for machines, as text and Markdown for people, its rows as tables.
 
 pub mod between;
 pub mod check;
 pub mod ground;
 pub mod json;
 pub mod model;
+mod page;
+pub mod schema;
+pub mod tables;
 pub mod text;
 pub mod volumes;
 
@@ -12,15 +15,18 @@ pub mod volumes;
 mod testing;
 
 pub use between::BetweenReport;
-pub use check::{CHECK_SCHEMA, CheckReport, Checked, render_check};
+pub use check::{CHECK_SCHEMA, CheckReport, Checked, render_check, render_check_markdown};
 pub use ground::{
     Daylight, EndArea, FinishedFigures, GroundAreas, PadRow, SectionRow, SectionSlopes, SlopeRange, StationRow, TerrainFigures,
     ThreeSections, station_rows,
 };
 pub use json::write_json;
 pub use model::*;
-pub use text::{write_between, write_text};
-pub use volumes::{Balance, BulkingFigures, CutFillFigures, DepthPlace, Depths, Reference, VolumeParts, Volumes};
+pub use tables::write_station_table;
+pub use text::{write_between, write_between_markdown, write_markdown, write_text};
+pub use volumes::{
+    Balance, BulkingFigures, CutFillFigures, DepthPlace, Depths, METHOD, METHOD_TEXT, Reference, SIGN_RULE, VolumeParts, Volumes,
+};
 
 use crate::write::{EncodeError, Target, UnknownFormat, ending};
 use std::io::Write;
@@ -32,11 +38,13 @@ pub enum ReportFormat {
     Json,
     /// For people.
     Text,
+    /// The same for those who publish it.
+    Markdown,
 }
 
 impl ReportFormat {
     /// The format of a target: by the ending of its name, upper or lower case. Standard output and existing devices and pipes
-    /// whose names end in neither take text.
+    /// whose names end in none of them take text.
     ///
     /// # Errors
     /// [`UnknownFormat`] for any other ending, or none.
@@ -45,8 +53,9 @@ impl ReportFormat {
         match ending(path).as_deref() {
             Some("json") => Ok(Self::Json),
             Some("txt") => Ok(Self::Text),
+            Some("md" | "markdown") => Ok(Self::Markdown),
             _ if target.is_stream() => Ok(Self::Text),
-            _ => Err(UnknownFormat { what: "report", path: path.clone(), known: "`.json` or `.txt`" }),
+            _ => Err(UnknownFormat { what: "report", path: path.clone(), known: "`.json`, `.txt` or `.md`" }),
         }
     }
 
@@ -58,6 +67,7 @@ impl ReportFormat {
         match self {
             Self::Json => write_json(out, report),
             Self::Text => write_text(out, report),
+            Self::Markdown => write_markdown(out, report),
         }
     }
 
@@ -69,6 +79,7 @@ impl ReportFormat {
         match self {
             Self::Json => write_json(out, report),
             Self::Text => write_between(out, report),
+            Self::Markdown => write_between_markdown(out, report),
         }
     }
 }
@@ -82,10 +93,11 @@ mod tests {
         let of = |name: &str| ReportFormat::of(&Target::File(name.into()));
         assert_eq!(of("r.JSON"), Ok(ReportFormat::Json));
         assert_eq!(of("r.txt"), Ok(ReportFormat::Text));
+        assert_eq!(of("r.Md"), Ok(ReportFormat::Markdown));
         assert_eq!(ReportFormat::of(&Target::Stdout), Ok(ReportFormat::Text));
         assert_eq!(
             of("r.pdf").unwrap_err().to_string(),
-            "no format is known for the ending `.pdf`\n  --> r.pdf\n   = help: end the name of a report in `.json` or `.txt`"
+            "no format is known for the ending `.pdf`\n  --> r.pdf\n   = help: end the name of a report in `.json`, `.txt` or `.md`"
         );
     }
 

@@ -5,17 +5,20 @@
 
 use super::ground::{Daylight, FinishedFigures, GroundAreas, PadRow, SectionSlopes, StationRow, TerrainFigures};
 use super::volumes::{Depths, Volumes};
-use crate::model::{Extent, LengthUnit, Slope};
+use crate::model::{Design, Extent, LengthUnit, Slope};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// Name of the schema, first key of every report.
 pub const SCHEMA: &str = "slopegen-report/1";
 
-/// Everything a run has to tell.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// The report of `slopegen build`.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "BuildReport")]
 pub struct Report {
-    /// [`SCHEMA`].
+    /// Name of the schema.
+    #[schemars(extend("const" = SCHEMA))]
     pub schema: &'static str,
     /// The program.
     pub tool: Tool,
@@ -23,6 +26,8 @@ pub struct Report {
     pub inputs: Vec<Input>,
     /// Units of the figures.
     pub units: Units,
+    /// How exactly the surface was built.
+    pub design: DesignFigures,
     /// The side slopes.
     pub slopes: Slopes,
     /// The given line.
@@ -69,11 +74,12 @@ pub struct Report {
 }
 
 /// The program that made the report.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Tool {
-    /// Its name.
+    /// Name of the program.
+    #[schemars(extend("const" = "slopegen"))]
     pub name: &'static str,
-    /// Its version.
+    /// Version of the program.
     pub version: &'static str,
 }
 
@@ -85,26 +91,39 @@ impl Default for Tool {
 }
 
 /// A file read.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Input {
-    /// What it was read for, such as `line`.
+    /// What it was read for: `line` or `terrain`; of volumes `design`, `existing` or `within`; of a check `mesh`.
     pub role: String,
     /// Its path as given; `-` for standard input.
     pub path: String,
+    /// Size in bytes.
+    pub bytes: u64,
     /// SHA-256 of its bytes, 64 lower-case hexadecimal digits.
+    #[schemars(regex(pattern = r"^[0-9a-f]{64}$"))]
     pub sha256: String,
-    /// `geojson`, `csv`, for existing ground also others.
+    /// Format, such as `geojson`, `csv`, `obj`.
     pub format: String,
     /// Name of its coordinate system, where it gives one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crs: Option<String>,
 }
 
-/// Units of the figures.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// Units of the figures. Angles are in degrees, times in seconds.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Units {
-    /// Label of the length unit.
-    pub length: String,
+    /// Unit of coordinates, lengths, heights and stations: `m`, `ft` (international foot) or `us-ft` (US survey foot).
+    #[schemars(extend("enum" = LengthUnit::ALL.map(LengthUnit::label)))]
+    pub length: &'static str,
+    /// Metres in one unit of length: 1, 0.3048, or 1200/3937.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub metres: f64,
+    /// Unit of areas, the square of the unit of length.
+    #[schemars(extend("enum" = LengthUnit::ALL.map(|unit| format!("{unit}²"))))]
+    pub area: String,
+    /// Unit of volumes, the cube of the unit of length.
+    #[schemars(extend("enum" = LengthUnit::ALL.map(|unit| format!("{unit}³"))))]
+    pub volume: String,
 }
 
 impl Default for Units {
@@ -116,31 +135,66 @@ impl Default for Units {
 
 impl From<LengthUnit> for Units {
     fn from(unit: LengthUnit) -> Self {
-        Self { length: unit.label().to_owned() }
+        Self { length: unit.label(), metres: unit.metres(), area: format!("{unit}²"), volume: format!("{unit}³") }
+    }
+}
+
+/// How exactly the surface was built.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct DesignFigures {
+    /// Bound for the height error of the whole mesh against the closed form of the given line.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub tolerance: f64,
+    /// Height between level curves, where one was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub interval: Option<f64>,
+}
+
+impl DesignFigures {
+    /// Of a design, or of the two for the same line: they differ in slope and sheet.
+    pub fn of<'a>(designs: impl IntoIterator<Item = &'a Design>, interval: Option<f64>) -> Self {
+        Self { tolerance: designs.into_iter().map(|design| design.tolerance).fold(0.0, f64::max), interval }
     }
 }
 
 /// The side slopes, each where it occurs.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Slopes {
-    /// Of the rising sheet.
+    /// How the slopes are measured.
+    pub measure: SlopeMeasure,
+    /// Side slope of cut: of the rising sheet.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cut: Option<SlopeFigures>,
-    /// Of the falling sheet.
+    /// Side slope of fill: of the falling sheet.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fill: Option<SlopeFigures>,
 }
 
+/// How a side slope is measured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SlopeMeasure {
+    /// As the true steepness of the surface, along its lines of steepest descent. On a gradient a section perpendicular to the
+    /// line shows a flatter slope: see `section_slope`.
+    #[default]
+    Steepest,
+}
+
 /// One slope in its four forms.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct SlopeFigures {
-    /// Rise per run.
+    /// Rise per run: 0.5 is 1V:2H.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub ratio: f64,
-    /// Run per unit of rise.
+    /// Run per unit of rise: the *n* of 1V:*n*H.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub one_in: f64,
-    /// In percent.
+    /// Rise per run in percent.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub percent: f64,
-    /// Angle against the horizontal.
+    /// Angle against the horizontal, in degrees.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 90))]
     pub degrees: f64,
 }
 
@@ -151,7 +205,7 @@ impl From<Slope> for SlopeFigures {
 }
 
 /// The given line.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct LineFigures {
     /// Polylines and rings.
     pub chains: usize,
@@ -160,13 +214,16 @@ pub struct LineFigures {
     /// Vertices the engine left out of its own copy of the line; the mesh has them all.
     pub simplified: usize,
     /// Greatest distance of a vertex left out from that copy.
+    #[schemars(range(min = 0))]
     pub simplified_max: f64,
     /// Plan length of all chains; of a road that of its centre line.
+    #[schemars(range(min = 0))]
     pub length: f64,
     /// Width of the roads made of open lines.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
     pub width: Option<f64>,
-    /// Their crossfall.
+    /// Crossfall of the roads.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crossfall: Option<CrossfallFigures>,
     /// Breaklines and spot heights on platforms; left out if there are none.
@@ -177,17 +234,18 @@ pub struct LineFigures {
     /// Highest elevation.
     pub z_max: f64,
     /// Greatest gradient along the line, rise per run, absolute.
+    #[schemars(range(min = 0))]
     pub gradient_max: f64,
     /// Stretches that lie under the sheet of another part of the line.
     pub buried: Vec<BuriedStretch>,
 }
 
 /// Fall from the centre line of a road to its edges, rise per run; positive where the edge lies lower.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct CrossfallFigures {
-    /// To the left edge.
+    /// Fall to the left edge.
     pub left: f64,
-    /// To the right edge.
+    /// Fall to the right edge.
     pub right: f64,
 }
 
@@ -198,7 +256,7 @@ fn is_zero(count: &usize) -> bool {
 
 /// A stretch of the line that does not appear in the surface because another part's sheet lies over it (or under it, for the
 /// rising sheet).
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct BuriedStretch {
     /// Name of its chain.
     pub chain: String,
@@ -207,6 +265,7 @@ pub struct BuriedStretch {
     /// Station where it ends.
     pub to: f64,
     /// Greatest height of the sheet over it (under it, for the rising sheet); positive.
+    #[schemars(range(min = 0))]
     pub depth: f64,
     /// Name of the chain that buries it.
     pub by_chain: String,
@@ -214,15 +273,16 @@ pub struct BuriedStretch {
     pub by_station: f64,
     /// Flattest slope, rise per run, that would leave it free; none where two parts meet in plan at different heights.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
     pub free_slope: Option<f64>,
 }
 
 /// Where the slope ends.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ExtentFigures {
-    /// What the value is.
+    /// Where the slopes end, and what the value is.
     pub kind: ExtentKind,
-    /// The value, in the length unit, where the kind has one.
+    /// The elevation, height or distance, where the kind has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
 }
@@ -233,7 +293,7 @@ impl ExtentFigures {
 }
 
 /// What the value of an extent is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ExtentKind {
     /// An absolute elevation.
@@ -258,38 +318,47 @@ impl From<Extent> for ExtentFigures {
 }
 
 /// The mesh written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct SurfaceFigures {
-    /// Vertices.
+    /// Vertices of the mesh.
     pub vertices: usize,
-    /// Triangles.
+    /// Triangles of the mesh.
     pub triangles: usize,
     /// Area of its projection onto the horizontal.
+    #[schemars(range(min = 0))]
     pub plan_area: f64,
     /// Area of the slopes, measured in them.
+    #[schemars(range(min = 0))]
     pub slope_area: f64,
     /// The falling part of `slope_area`.
+    #[schemars(range(min = 0))]
     pub fill_slope_area: f64,
     /// The rising part of `slope_area`.
+    #[schemars(range(min = 0))]
     pub cut_slope_area: f64,
     /// Area of the platform, measured in it.
+    #[schemars(range(min = 0))]
     pub platform_area: f64,
 }
 
 /// What was measured on the mesh written.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Certificate {
     /// Every ridge arc of a facet with a partner is an arc of the partner with that facet.
     pub paired: bool,
     /// Greatest deviation of a slope triangle from the slope asked for, in degrees.
+    #[schemars(range(min = 0))]
     pub slope_max_deviation_deg: f64,
-    /// The same over planar strips.
+    /// Greatest deviation over planar strips, in degrees.
+    #[schemars(range(min = 0))]
     pub strip_max_deviation_deg: f64,
-    /// The same over cone sectors.
+    /// Greatest deviation over cone sectors, in degrees.
+    #[schemars(range(min = 0))]
     pub sector_max_deviation_deg: f64,
     /// Slope triangles that deviate by more than 0.1°.
     pub triangles_beyond_0_1deg: usize,
     /// Greatest deviation of a sampled height from the closed form.
+    #[schemars(range(min = 0))]
     pub height_max_deviation: f64,
     /// No edge has more than two triangles, no vertex pinches, all triangles face up.
     pub manifold: bool,
@@ -300,11 +369,12 @@ pub struct Certificate {
 }
 
 /// Something the reader should know.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Warning {
     /// Stable name, listed in `docs/cli.md`.
+    #[schemars(regex(pattern = r"^[a-z0-9]+(-[a-z0-9]+)*$"))]
     pub code: String,
-    /// One sentence.
+    /// The warning in words.
     pub message: String,
     /// Figures beside the message, under keys of their own. `code` and `message` are taken.
     #[serde(flatten)]
@@ -312,7 +382,7 @@ pub struct Warning {
 }
 
 /// A figure of a warning.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Detail {
     /// A whole number.
@@ -324,19 +394,25 @@ pub enum Detail {
 }
 
 /// Seconds spent.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Timing {
     /// Reading and validation.
+    #[schemars(range(min = 0))]
     pub read: f64,
     /// Reading and checking the existing ground.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
     pub terrain: Option<f64>,
     /// The surface and its certificate.
+    #[schemars(range(min = 0))]
     pub surface: f64,
     /// Areas and volumes; with existing ground the daylight line and the finished ground, too.
+    #[schemars(range(min = 0))]
     pub volume: f64,
     /// Meshes and line work, up to the report.
+    #[schemars(range(min = 0))]
     pub write: f64,
-    /// All of it.
+    /// All of the run.
+    #[schemars(range(min = 0))]
     pub total: f64,
 }

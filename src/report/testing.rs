@@ -24,12 +24,14 @@ pub(super) fn full() -> Report {
         inputs: vec![Input {
             role: "line".into(),
             path: "site/road.geojson".into(),
+            bytes: 123_456,
             sha256: "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08".into(),
             format: "geojson".into(),
             crs: Some("EPSG:25832".into()),
         }],
         units: Units::default(),
-        slopes: Slopes { cut: slope(1.0), fill: slope(1.0 / 1.5) },
+        design: DesignFigures { tolerance: 0.01, interval: Some(2.0) },
+        slopes: Slopes { cut: slope(1.0), fill: slope(1.0 / 1.5), ..Slopes::default() },
         line: LineFigures {
             chains: 2,
             vertices: 1200,
@@ -67,10 +69,12 @@ pub(super) fn full() -> Report {
             input_edges_kept: true,
         },
         volumes: Some(Volumes {
-            method: "prisms".into(),
+            method: METHOD,
+            method_text: METHOD_TEXT,
             cut: 0.0,
             fill: 1_234_567.891,
             net: -1_234_567.891,
+            sign_rule: SIGN_RULE,
             balance: Balance::of(0.0, 1_234_567.891),
             error_bound: 81.5,
             complete: true,
@@ -130,6 +134,7 @@ pub(super) fn on_ground() -> Report {
         cut: total.cut,
         fill: total.fill,
         net: total.net(),
+        sign_rule: SIGN_RULE,
         balance: Balance::of(total.cut, total.fill),
         error_bound: 0.5,
         complete: false,
@@ -138,7 +143,8 @@ pub(super) fn on_ground() -> Report {
         bulking: Some(BulkingFigures::of(total.cut, total.fill, soil)),
         end_area: Some(sections.average_end_area.into()),
         prismoidal: Some(sections.prismoidal.into()),
-        method: "prisms".into(),
+        method: METHOD,
+        method_text: METHOD_TEXT,
     });
     report.areas = Some(GroundAreas { cut: total.cut_area, fill: total.fill_area, unaffected: 4_000_000.0 });
     let mut depths = Depths::of(&tallied, &stations, Frame::WORLD);
@@ -166,6 +172,7 @@ pub(super) fn least() -> Report {
     let mut report = full();
     report.inputs[0].crs = None;
     report.slopes.cut = None;
+    report.design.interval = None;
     report.line.buried.clear();
     (report.line.simplified, report.line.simplified_max) = (0, 0.0);
     report.line.chains = 1;

@@ -3,20 +3,13 @@
 mod between;
 mod ground;
 
-pub use between::write_between;
+pub use between::{write_between, write_between_markdown};
 
-use super::{Certificate, ExtentKind, LineFigures, Report, SlopeFigures, SurfaceFigures, Volumes};
+use super::page::{Column, Group, Page, Row, printable};
+use super::{BuriedStretch, Certificate, ExtentKind, LineFigures, Report, SlopeFigures, SurfaceFigures, Volumes};
 use crate::model::Slope;
 use crate::write::EncodeError;
-use std::fmt::Write as _;
 use std::io::Write;
-
-/// Width of the names before the figures.
-const NAME: usize = 20;
-/// Width of a number before its unit.
-const NUMBER: usize = 16;
-/// Hexadecimal digits of a SHA-256 that tell files apart by eye.
-const SHORT_SHA: usize = 12;
 
 /// Writes a report as plain text, UTF-8. The same report gives the same bytes; times are not in it.
 ///
@@ -27,24 +20,26 @@ pub fn write_text(out: &mut (impl Write + ?Sized), report: &Report) -> Result<()
     Ok(())
 }
 
+/// Writes a report as Markdown, UTF-8: what the plain text says, in tables.
+///
+/// # Errors
+/// [`EncodeError::Io`] from the sink.
+pub fn write_markdown(out: &mut (impl Write + ?Sized), report: &Report) -> Result<(), EncodeError> {
+    out.write_all(page(report).markdown().as_bytes())?;
+    Ok(())
+}
+
 /// The report as plain text.
 pub fn render(report: &Report) -> String {
-    let unit = report.units.length.as_str();
-    let mut page = Page { text: String::new(), unit };
-    page.text = format!(
-        "{} {}: surface of constant slope\nLengths in {unit}, areas in {unit}², volumes in {unit}³\n",
-        report.tool.name, report.tool.version
-    );
+    page(report).plain()
+}
+
+fn page(report: &Report) -> Page {
+    let mut page = Page::new(&report.tool, "surface of constant slope", &report.units, true);
     page.section("Input");
-    for input in &report.inputs {
-        let short = input.sha256.get(..SHORT_SHA).unwrap_or(&input.sha256);
-        page.words(&input.role, &format!("{} ({}, sha256 {short})", input.path, input.format));
-        if let Some(crs) = &input.crs {
-            page.words("coordinate system", crs);
-        }
-    }
+    page.inputs(&report.inputs);
     line(&mut page, &report.line);
-    page.section("Slope");
+    page.section("Slope (true steepness, along the lines of steepest descent)");
     for (name, slope) in [("cut", report.slopes.cut), ("fill", report.slopes.fill)] {
         if let Some(slope) = slope {
             page.words(name, &forms(slope));
@@ -68,8 +63,12 @@ pub fn render(report: &Report) -> String {
     if let (Some(first), Some(last)) = (report.levels.first(), report.levels.last()) {
         page.words("levels", &format!("{} from {first} to {last}", report.levels.len()));
     }
+    if let Some(interval) = report.design.interval {
+        page.length("  interval", interval);
+    }
     surface(&mut page, &report.surface);
     certificate(&mut page, &report.certificate);
+    page.small("  tolerance", &short(report.design.tolerance));
     ground::terrain(&mut page, report);
     if let Some(volumes) = &report.volumes {
         self::volumes(&mut page, volumes);
@@ -84,23 +83,17 @@ pub fn render(report: &Report) -> String {
     if let Some(stations) = &report.stations {
         ground::stations(&mut page, stations, report.pads, report.volumes.as_ref());
     }
-    if !report.warnings.is_empty() {
-        page.section("Warnings");
-        for warning in &report.warnings {
-            let message: Vec<String> = warning.message.lines().map(printable).collect();
-            let _ = writeln!(page.text, "  {}: {}", warning.code, message.join("\n    "));
-        }
-    }
-    page.text
+    page.warnings("Warnings", &report.warnings);
+    page
 }
 
-fn line(page: &mut Page<'_>, line: &LineFigures) {
+fn line(page: &mut Page, line: &LineFigures) {
     page.section("Line");
     page.count("chains", line.chains);
     page.count("vertices", line.vertices);
     if line.simplified > 0 {
         page.count("simplified", line.simplified);
-        page.figure("  greatest shift", &short(line.simplified_max), page.unit);
+        page.small("  greatest shift", &short(line.simplified_max));
     }
     page.length("length", line.length);
     if let Some(width) = line.width {
@@ -121,25 +114,25 @@ fn line(page: &mut Page<'_>, line: &LineFigures) {
         return;
     }
     page.section("Buried stretches (stations; the line lies outside the surface there)");
-    let names: Vec<[String; 2]> = line.buried.iter().map(|b| [printable(&b.chain), printable(&b.by_chain)]).collect();
-    let width = names.iter().flatten().map(|name| name.chars().count()).max().unwrap_or(0).max("chain".len());
-    let text = &mut page.text;
-    let _ = writeln!(
-        text,
-        "  {:width$}  {:>12}  {:>12}  {:>10}  {:width$}  {:>12}  free from",
-        "chain", "from", "to", "depth", "under", "station"
-    );
-    for (b, [chain, by_chain]) in line.buried.iter().zip(&names) {
+    let columns = vec![
+        Column::words("chain"),
+        Column::numbers("from", 12),
+        Column::numbers("to", 12),
+        Column::numbers("depth", 10),
+        Column::words("under"),
+        Column::numbers("station", 12),
+        Column::words("free from"),
+    ];
+    let row = |b: &BuriedStretch| {
         let free = b.free_slope.and_then(Slope::from_ratio).map_or_else(|| "no slope".to_owned(), Slope::not_flatter);
-        let _ = writeln!(
-            text,
-            "  {:width$}  {:>12.3}  {:>12.3}  {:>10.3}  {:width$}  {:>12.3}  {free}",
-            chain, b.from, b.to, b.depth, by_chain, b.by_station
-        );
-    }
+        let figure = |value: f64| format!("{value:.3}");
+        let [chain, by_chain] = [&b.chain, &b.by_chain].map(|name| printable(name));
+        Row::Cells(vec![chain, figure(b.from), figure(b.to), figure(b.depth), by_chain, figure(b.by_station), free])
+    };
+    page.table(vec![Group { title: "", columns }], line.buried.iter().map(row).collect());
 }
 
-fn surface(page: &mut Page<'_>, surface: &SurfaceFigures) {
+fn surface(page: &mut Page, surface: &SurfaceFigures) {
     page.section("Surface");
     page.count("vertices", surface.vertices);
     page.count("triangles", surface.triangles);
@@ -150,7 +143,7 @@ fn surface(page: &mut Page<'_>, surface: &SurfaceFigures) {
     page.area("platform", surface.platform_area);
 }
 
-fn certificate(page: &mut Page<'_>, c: &Certificate) {
+fn certificate(page: &mut Page, c: &Certificate) {
     let yes = |yes: bool| if yes { "yes" } else { "NO" };
     page.section("Certificate (measured on this mesh)");
     page.words("facets pair", yes(c.paired));
@@ -161,10 +154,10 @@ fn certificate(page: &mut Page<'_>, c: &Certificate) {
     page.figure("  planar strips", &angle(c.strip_max_deviation_deg), "°");
     page.figure("  cone sectors", &angle(c.sector_max_deviation_deg), "°");
     page.count("  beyond 0.1°", c.triangles_beyond_0_1deg);
-    page.figure("height deviation", &short(c.height_max_deviation), page.unit);
+    page.small("height deviation", &short(c.height_max_deviation));
 }
 
-fn volumes(page: &mut Page<'_>, v: &Volumes) {
+fn volumes(page: &mut Page, v: &Volumes) {
     let against = match v.reference.elevation {
         Some(z) => format!("{} at elevation {z}", v.reference.kind),
         None if v.reference.kind == "terrain" => "existing ground".to_owned(),
@@ -176,11 +169,8 @@ fn volumes(page: &mut Page<'_>, v: &Volumes) {
     page.volume("net (cut − fill)", v.net, &format!(" {}", v.balance.word()));
     page.volume("error at most", v.error_bound, "");
     page.words("complete", if v.complete { "yes" } else { "NO, the slopes do not reach their end everywhere" });
-}
-
-/// Text from a file, without characters that would move the cursor or colour a terminal.
-fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+    page.words("method", v.method_text);
+    page.words("sign", v.sign_rule);
 }
 
 /// The four forms of a slope.
@@ -207,44 +197,6 @@ fn short(value: f64) -> String {
     }
 }
 
-/// The text so far and how to add to it.
-struct Page<'a> {
-    text: String,
-    unit: &'a str,
-}
-
-impl Page<'_> {
-    fn section(&mut self, title: &str) {
-        // Writing to a String cannot fail.
-        let _ = writeln!(self.text, "\n{title}");
-    }
-
-    fn words(&mut self, name: &str, words: &str) {
-        let _ = writeln!(self.text, "  {name:NAME$}{}", printable(words));
-    }
-
-    fn figure(&mut self, name: &str, number: &str, unit: &str) {
-        let gap = if unit == "°" || unit.is_empty() { "" } else { " " };
-        let _ = writeln!(self.text, "  {name:NAME$}{number:>NUMBER$}{gap}{unit}");
-    }
-
-    fn count(&mut self, name: &str, count: usize) {
-        self.figure(name, &count.to_string(), "");
-    }
-
-    fn length(&mut self, name: &str, value: f64) {
-        self.figure(name, &format!("{value:.3}"), self.unit);
-    }
-
-    fn area(&mut self, name: &str, value: f64) {
-        self.figure(name, &format!("{value:.2}"), &format!("{}²", self.unit));
-    }
-
-    fn volume(&mut self, name: &str, value: f64, remark: &str) {
-        self.figure(name, &format!("{value:.2}"), &format!("{}³{remark}", self.unit));
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -258,6 +210,54 @@ mod tests {
     #[test]
     fn a_full_report_on_ground_is_pinned() {
         compare(&render(&on_ground()), include_str!("../../tests/golden/report_ground.txt"), "report_ground.txt");
+    }
+
+    fn markdown(report: &Report) -> String {
+        let mut bytes = Vec::new();
+        write_markdown(&mut bytes, report).unwrap();
+        String::from_utf8(bytes).unwrap()
+    }
+
+    #[test]
+    fn markdown_is_pinned() {
+        compare(&markdown(&on_ground()), include_str!("../../tests/golden/report_ground.md"), "report_ground.md");
+    }
+
+    /// Words of a page without what shapes it.
+    fn words(text: &str) -> Vec<String> {
+        let plain: String = text.chars().map(|c| if "|#*\\–- \n:".contains(c) { ' ' } else { c }).collect();
+        let mut words: Vec<String> = plain.split_whitespace().map(str::to_owned).collect();
+        words.sort();
+        words.dedup();
+        words
+    }
+
+    #[test]
+    fn both_forms_say_the_same() {
+        for report in [full(), on_ground(), least()] {
+            assert_eq!(words(&render(&report)), words(&markdown(&report)));
+        }
+    }
+
+    #[test]
+    fn names_from_files_are_no_markup() {
+        let mut report = full();
+        report.line.buried[0].chain = "a|b `c` <b>".into();
+        report.inputs[0].path = "x|y.csv".into();
+        report.warnings[0].message = "first\n# second".into();
+        let text = markdown(&report);
+        assert!(
+            text.contains("\n| a\\|b \\`c\\` \\<b\\> |") && text.contains("| x\\|y.csv (") && text.contains("\n  * \\# second\n"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn lines_fit_a_terminal() {
+        for report in [full(), on_ground(), least()] {
+            let text = render(&report);
+            assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+        }
     }
 
     #[test]
@@ -276,16 +276,21 @@ mod tests {
         for absent in ["Buried", "simplified", "coordinate system", "levels", "Volumes", "deepest", "Warnings", "  cut  "] {
             assert!(!text.contains(absent), "{absent} in\n{text}");
         }
-        assert!(text.contains("plan distance") && text.ends_with("m\n"));
+        assert!(text.contains("plan distance") && text.ends_with("m\n"), "{text}");
     }
 
     #[test]
     fn units_are_those_given() {
         let mut report = full();
-        report.units.length = "ft".into();
+        report.units = crate::model::LengthUnit::Foot.into();
         let text = render(&report);
-        assert!(text.contains("Lengths in ft, areas in ft², volumes in ft³\n"));
-        assert!(text.contains(" ft³ deficit\n") && !text.contains(" m\n") && !text.contains(" m²") && !text.contains(" m³"));
+        assert!(text.contains("Lengths in ft, areas in ft², volumes in ft³; 1 ft = 0.3048 m\n"));
+        assert!(
+            text.contains(" ft³ deficit\n")
+                && !text.replace("0.3048 m\n", "").contains(" m\n")
+                && !text.contains(" m²")
+                && !text.contains(" m³")
+        );
     }
 
     #[test]
@@ -295,8 +300,8 @@ mod tests {
         report.inputs[0].crs = Some("x\ty".into());
         report.warnings[0].message = "first\nsecond\u{7}".into();
         let text = render(&report);
-        assert!(text.contains("\n  a b [2J "), "{text}");
-        assert!(text.contains("buried: first\n    second \n"), "{text}");
+        assert!(text.contains("\n  a b [2J"), "{text}");
+        assert!(text.contains("buried: first\n    second\n"), "{text}");
         assert!(text.chars().all(|c| c == '\n' || !c.is_control()));
     }
 

@@ -1,21 +1,48 @@
 //! Volumes and depths in the report.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
+/// The one method of volumes there is.
+pub const METHOD: &str = "prisms";
+
+/// The method in words.
+pub const METHOD_TEXT: &str =
+    "exact for the triangles: prisms over the common refinement of both surfaces, no cells and no sections";
+
+/// What the sign of net says.
+pub const SIGN_RULE: &str =
+    "net = cut − fill: positive is a surplus (soil is left over), negative a deficit (soil must be brought)";
+
+/// Mean depth of a volume; none over no area.
+pub(super) fn mean(volume: f64, area: f64) -> Option<f64> {
+    (area > 0.0 && volume / area < f64::INFINITY).then(|| volume / area)
+}
+
 /// Cut and fill.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Volumes {
-    /// How they were computed, such as `prisms`.
-    pub method: String,
+    /// How they were computed; `prisms`: exact for the triangles of both surfaces.
+    #[schemars(extend("const" = METHOD))]
+    pub method: &'static str,
+    /// The method in words.
+    #[schemars(extend("const" = METHOD_TEXT))]
+    pub method_text: &'static str,
     /// Volume to be dug away; not negative.
+    #[schemars(range(min = 0))]
     pub cut: f64,
     /// Volume to be brought; not negative.
+    #[schemars(range(min = 0))]
     pub fill: f64,
-    /// `cut − fill`.
+    /// `cut − fill`: see `sign_rule`.
     pub net: f64,
+    /// What the sign of `net` says.
+    #[schemars(extend("const" = SIGN_RULE))]
+    pub sign_rule: &'static str,
     /// The sign of `net` in a word.
     pub balance: Balance,
     /// Bound for the error of cut and of fill through simplification and cone chords.
+    #[schemars(range(min = 0))]
     pub error_bound: f64,
     /// Whether the slopes reach their end everywhere.
     pub complete: bool,
@@ -36,16 +63,18 @@ pub struct Volumes {
 }
 
 /// A figure for cut and one for fill; not negative.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct CutFillFigures {
-    /// Of cut.
+    /// Figure of cut.
+    #[schemars(range(min = 0))]
     pub cut: f64,
-    /// Of fill.
+    /// Figure of fill.
+    #[schemars(range(min = 0))]
     pub fill: f64,
 }
 
 /// Volumes by part.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct VolumeParts {
     /// Under and above the platform.
     pub platform: CutFillFigures,
@@ -54,23 +83,31 @@ pub struct VolumeParts {
 }
 
 /// Volumes with the change in volume of the soil.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct BulkingFigures {
-    /// Gain in volume when dug, as a share of the volume in the ground.
+    /// Gain in volume when dug, as a share of the volume in the ground: 0.25 is 25 %.
+    #[schemars(range(min = 0))]
     pub swell: f64,
-    /// Loss in volume when compacted, as a share of the volume in the ground.
+    /// Loss in volume when compacted, as a share of the volume in the ground; negative for rock that takes more room.
+    #[schemars(extend("exclusiveMaximum" = 1))]
     pub shrink: f64,
     /// The cut in the ground, as measured.
+    #[schemars(range(min = 0))]
     pub cut_bank: f64,
     /// The cut when dug.
+    #[schemars(range(min = 0))]
     pub cut_loose: f64,
     /// What the cut gives when compacted.
+    #[schemars(range(min = 0))]
     pub cut_compacted: f64,
     /// The fill when compacted, as measured.
+    #[schemars(range(min = 0))]
     pub fill_compacted: f64,
     /// Volume in the ground that gives the fill.
+    #[schemars(range(min = 0))]
     pub fill_bank: f64,
-    /// The same when dug.
+    /// The soil for the fill when dug.
+    #[schemars(range(min = 0))]
     pub fill_loose: f64,
     /// `cut_bank − fill_bank`.
     pub net_bank: f64,
@@ -79,7 +116,7 @@ pub struct BulkingFigures {
 }
 
 /// What is left over, or lacking.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Balance {
     /// More cut than fill: soil is left over.
@@ -116,9 +153,10 @@ impl Balance {
 }
 
 /// What volumes are taken against.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Reference {
     /// `plane`: horizontal; `terrain`: existing ground.
+    #[schemars(extend("enum" = ["plane", "terrain"]))]
     pub kind: String,
     /// Elevation of the plane.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -141,22 +179,32 @@ impl Reference {
 }
 
 /// Greatest vertical depths, not negative.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Depths {
-    /// Of cut.
+    /// Greatest depth of cut.
+    #[schemars(range(min = 0))]
     pub cut_max: f64,
-    /// Of fill.
+    /// Greatest depth of fill.
+    #[schemars(range(min = 0))]
     pub fill_max: f64,
-    /// Where that of cut is found.
+    /// Mean depth of cut: its volume over its area; left out where there is no area, or none is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub cut_mean: Option<f64>,
+    /// Mean depth of fill: its volume over its area; left out where there is no area, or none is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub fill_mean: Option<f64>,
+    /// Where the greatest depth of cut is found.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cut_max_at: Option<DepthPlace>,
-    /// Where that of fill is found.
+    /// Where the greatest depth of fill is found.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fill_max_at: Option<DepthPlace>,
 }
 
 /// Where a depth is found, in world coordinates.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct DepthPlace {
     /// Easting.
     pub x: f64,

@@ -95,7 +95,9 @@ pub fn check_overlap(terrain: &Terrain, ground: &str, line: &Line, label: &str) 
 fn guess(road: &Box, field: &Box, heights: impl Fn() -> (f64, f64)) -> Option<String> {
     if road.map(|p| p.yx()).meets(field) {
         return Some(
-            "easting and northing of one of them seem to be exchanged: name the columns, or exchange them in the file".into(),
+            "easting and northing of one of them seem to be exchanged: name the columns, or exchange them in the file; for LandXML \
+             with easting first give `--terrain-order enz`, or `--csv-order enz` for a line"
+                .into(),
         );
     }
     // Another unit or zone would put it far away.

@@ -19,6 +19,14 @@ pub enum EncodeError {
         /// The number.
         value: f64,
     },
+    /// A coordinate too large for a format of single precision.
+    #[error("vertex {index} lies too far out for the format ({value}, which holds numbers up to 3.4e38)")]
+    BeyondSingle {
+        /// The vertex, counted from 1.
+        index: usize,
+        /// Its coordinate, about the local origin.
+        value: f64,
+    },
     /// More items than the format can count.
     #[error("{count} {what} are more than the format can hold ({most})")]
     TooMany {
@@ -122,6 +130,7 @@ fn write_help(target: &Target, cause: &EncodeError) -> &'static str {
     match cause {
         EncodeError::Io(_) if target.is_stream() => "what came out is not complete; make room or name another place",
         EncodeError::Io(_) => "no part of the file was left behind; make room or name another place",
+        EncodeError::BeyondSingle { .. } => "write a format of double precision, such as `.ply`",
         EncodeError::TooMany { .. } => "write another format, or raise `--tolerance`",
         _ => "please report it with the input that shows it",
     }

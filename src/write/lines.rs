@@ -1,5 +1,6 @@
 //! Line work as GeoJSON.
 
+use super::head::finite;
 use super::number::push_f64;
 use super::obj::flush_if_full;
 use super::{EncodeError, GENERATOR};
@@ -16,12 +17,7 @@ use std::io::Write;
 /// # Errors
 /// [`EncodeError::Io`] from the sink, [`EncodeError::NotFinite`] for a coordinate or elevation that is no number.
 pub fn write_lines(out: &mut (impl Write + ?Sized), features: &[LineFeature], crs: Option<&str>) -> Result<usize, EncodeError> {
-    let mut order: Vec<usize> = (0..features.len()).filter(|&i| features[i].points.len() >= 2).collect();
-    order.sort_by(|&a, &b| {
-        let key = |i: usize| (features[i].kind, features[i].elevation.unwrap_or(f64::NEG_INFINITY));
-        let ((kind_a, z_a), (kind_b, z_b)) = (key(a), key(b));
-        kind_a.cmp(&kind_b).then(z_a.total_cmp(&z_b))
-    });
+    let order = in_order(features);
     let mut bytes = Vec::new();
     bytes.extend_from_slice(b"{\"type\":\"FeatureCollection\",\n\"generator\":");
     push_json_string(&mut bytes, GENERATOR)?;
@@ -40,6 +36,17 @@ pub fn write_lines(out: &mut (impl Write + ?Sized), features: &[LineFeature], cr
     Ok(order.len())
 }
 
+/// Features by kind, then elevation, otherwise in the given order. One of fewer than two points is no line and is left out.
+pub(super) fn in_order(features: &[LineFeature]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..features.len()).filter(|&i| features[i].points.len() >= 2).collect();
+    order.sort_by(|&a, &b| {
+        let key = |i: usize| (features[i].kind, features[i].elevation.unwrap_or(f64::NEG_INFINITY));
+        let ((kind_a, z_a), (kind_b, z_b)) = (key(a), key(b));
+        kind_a.cmp(&kind_b).then(z_a.total_cmp(&z_b))
+    });
+    order
+}
+
 /// Appends one feature, `index` its position in the caller's list.
 fn push_feature(
     out: &mut (impl Write + ?Sized),
@@ -47,10 +54,7 @@ fn push_feature(
     feature: &LineFeature,
     index: usize,
 ) -> Result<(), EncodeError> {
-    let finite = |value: f64| {
-        let error = EncodeError::NotFinite { what: "line feature", index: index + 1, value };
-        if value.is_finite() { Ok(value) } else { Err(error) }
-    };
+    let finite = |value| finite(value, "line feature", index + 1);
     bytes.extend_from_slice(b"{\"type\":\"Feature\",\"properties\":{\"kind\":\"");
     bytes.extend_from_slice(feature.kind.name().as_bytes());
     bytes.push(b'"');

@@ -1,8 +1,11 @@
 //! Wavefront OBJ.
 
+use super::head::plain;
 use super::number::{push_f64, push_u64};
-use super::{EncodeError, GENERATOR};
-use crate::model::{Part, Tin};
+use super::origin::push_point;
+use super::{EncodeError, GENERATOR, Head};
+use crate::model::{LengthUnit, Part, Tin};
+use glam::DVec3;
 use std::io::Write;
 
 /// Bytes gathered before they go to the sink.
@@ -13,14 +16,31 @@ const LONGEST_LINE: usize = 128;
 /// Writes a mesh as OBJ text: `v x y z` in world coordinates with the shortest digits that read back to the same bits, then
 /// one group per part that occurs (`g platform`, `g fill_slope`, …) with its triangles `f a b c`, in the order of the mesh.
 ///
+/// Comments tell the reference system (`# crs: …`), a unit that is not the metre (`# unit: ft`) and, where there is one, the
+/// local origin that the coordinates are counted from.
+///
 /// # Errors
 /// [`EncodeError::Io`] from the sink, [`EncodeError::NotFinite`] for a vertex with a coordinate that is no number.
-pub fn write_obj(out: &mut (impl Write + ?Sized), tin: &Tin) -> Result<(), EncodeError> {
-    writeln!(out, "# {GENERATOR}\n# {} vertices, {} triangles", tin.vertices.len(), tin.triangles.len())?;
+pub fn write_obj(out: &mut (impl Write + ?Sized), tin: &Tin, head: &Head<'_>) -> Result<(), EncodeError> {
+    writeln!(out, "# {GENERATOR}")?;
+    if let Some(crs) = head.crs {
+        // A backslash at its end would join the next line to the comment.
+        writeln!(out, "# crs: {}", plain(crs).trim_end_matches(['\\', ' ']))?;
+    }
+    if head.unit != LengthUnit::Metre {
+        writeln!(out, "# unit: {}", head.unit)?;
+    }
     let mut bytes = Vec::with_capacity(CHUNK + LONGEST_LINE);
+    if let Some(origin) = head.origin {
+        bytes.extend_from_slice(b"# local origin: ");
+        push_point(&mut bytes, origin, b" ");
+        bytes.extend_from_slice(b" (add it to get world coordinates)\n");
+    }
+    bytes.extend_from_slice(format!("# {} vertices, {} triangles\n", tin.vertices.len(), tin.triangles.len()).as_bytes());
+    let origin = head.origin.unwrap_or_default();
     for i in 0..tin.vertices.len() {
         bytes.push(b'v');
-        for value in finite_vertex(tin, i)? {
+        for value in finite_vertex(tin, i, origin)? {
             bytes.push(b' ');
             push_f64(&mut bytes, value);
         }
@@ -49,9 +69,9 @@ pub fn write_obj(out: &mut (impl Write + ?Sized), tin: &Tin) -> Result<(), Encod
     Ok(())
 }
 
-/// Vertex `i` in world coordinates, proved finite.
-pub(super) fn finite_vertex(tin: &Tin, i: usize) -> Result<[f64; 3], EncodeError> {
-    let p = tin.world(i).to_array();
+/// Vertex `i` about an origin given in world coordinates, proved finite.
+pub(super) fn finite_vertex(tin: &Tin, i: usize, origin: DVec3) -> Result<[f64; 3], EncodeError> {
+    let p = (tin.world(i) - origin).to_array();
     match p.iter().find(|v| !v.is_finite()) {
         None => Ok(p),
         Some(&value) => Err(EncodeError::NotFinite { what: "vertex", index: i + 1, value }),
@@ -80,7 +100,7 @@ mod tests {
         tin.triangles = vec![[0, 1, 2], [3, 2, 1], [0, 2, 3]];
         tin.parts = vec![Part::FillSlope, Part::Platform, Part::FillSlope];
         let mut bytes = Vec::new();
-        write_obj(&mut bytes, &tin).unwrap();
+        write_obj(&mut bytes, &tin, &Head::default()).unwrap();
         let expected = format!(
             "# {GENERATOR}\n# 4 vertices, 3 triangles\nv 0 0 100\nv 1.5 0 1e+21\nv 0 0.1 -0.25\nv 5e-324 7 1\n\
              g platform\nf 4 3 2\ng fill_slope\nf 1 2 3\nf 1 3 4\n"
@@ -93,7 +113,7 @@ mod tests {
         // Large enough for several chunks.
         let tin = awkward_tin(120);
         let mut bytes = Vec::new();
-        write_obj(&mut bytes, &tin).unwrap();
+        write_obj(&mut bytes, &tin, &Head::default()).unwrap();
         assert!(bytes.len() > 3 * CHUNK);
         let (vertices, faces) = read_obj(&bytes);
         let expected: Vec<[u64; 3]> = (0..tin.vertices.len()).map(|i| tin.world(i).to_array().map(f64::to_bits)).collect();
@@ -107,7 +127,7 @@ mod tests {
     fn a_number_that_is_none_is_refused() {
         let mut tin = awkward_tin(3);
         tin.vertices[4].z = f64::NAN;
-        let error = write_obj(&mut Vec::new(), &tin).unwrap_err();
+        let error = write_obj(&mut Vec::new(), &tin, &Head::default()).unwrap_err();
         assert!(matches!(error, EncodeError::NotFinite { what: "vertex", index: 5, .. }), "{error}");
     }
 }

@@ -1,25 +1,29 @@
 //! Stanford PLY, binary little-endian.
 
+use super::head::plain;
 use super::obj::{finite_vertex, flush_if_full};
-use super::{EncodeError, GENERATOR};
-use crate::model::{Part, Tin};
+use super::origin::push_point;
+use super::{EncodeError, GENERATOR, Head};
+use crate::model::{LengthUnit, Part, Tin};
 use std::io::Write;
 
 /// Writes a mesh as binary little-endian PLY: vertices as three doubles in world coordinates, faces as a list of three `int`
-/// indices followed by the `uchar` property `part`, in the order of the mesh. Comments name the parts.
+/// indices followed by the `uchar` property `part`, in the order of the mesh. Comments name the parts, the
+/// reference system (`comment crs …`), a unit that is not the metre and, where there is one, the local origin.
 ///
 /// # Errors
 /// [`EncodeError::Io`] from the sink, [`EncodeError::NotFinite`] for a vertex with a coordinate that is no number,
 /// [`EncodeError::TooMany`] when the indices do not fit the format's `int`.
-pub fn write_ply(out: &mut (impl Write + ?Sized), tin: &Tin) -> Result<(), EncodeError> {
+pub fn write_ply(out: &mut (impl Write + ?Sized), tin: &Tin, head: &Head<'_>) -> Result<(), EncodeError> {
     let most = i32::MAX as usize;
     if tin.vertices.len() > most {
         return Err(EncodeError::TooMany { what: "vertices", count: tin.vertices.len(), most });
     }
-    let mut bytes = header(tin).into_bytes();
+    let mut bytes = header(tin, head);
+    let origin = head.origin.unwrap_or_default();
     for i in 0..tin.vertices.len() {
         let mut record = [0_u8; 24];
-        for (field, value) in record.chunks_exact_mut(8).zip(finite_vertex(tin, i)?) {
+        for (field, value) in record.chunks_exact_mut(8).zip(finite_vertex(tin, i, origin)?) {
             field.copy_from_slice(&value.to_le_bytes());
         }
         bytes.extend_from_slice(&record);
@@ -39,15 +43,29 @@ pub fn write_ply(out: &mut (impl Write + ?Sized), tin: &Tin) -> Result<(), Encod
 }
 
 /// Everything up to and including the `end_header` line.
-fn header(tin: &Tin) -> String {
+fn header(tin: &Tin, head: &Head<'_>) -> Vec<u8> {
+    let mut bytes = format!("ply\nformat binary_little_endian 1.0\ncomment {GENERATOR}\n").into_bytes();
+    if let Some(crs) = head.crs {
+        // Some readers look for the word that ends the header wherever it stands.
+        bytes.extend_from_slice(format!("comment crs {}\n", plain(crs).replace("end_header", "end header")).as_bytes());
+    }
+    if head.unit != LengthUnit::Metre {
+        bytes.extend_from_slice(format!("comment unit {}\n", head.unit).as_bytes());
+    }
+    if let Some(origin) = head.origin {
+        bytes.extend_from_slice(b"comment local origin ");
+        push_point(&mut bytes, origin, b" ");
+        bytes.push(b'\n');
+    }
     let parts: String = Part::ALL.iter().map(|p| format!("comment part {} {}\n", *p as u8, p.name())).collect();
-    format!(
-        "ply\nformat binary_little_endian 1.0\ncomment {GENERATOR}\n{parts}\
-         element vertex {}\nproperty double x\nproperty double y\nproperty double z\n\
+    let elements = format!(
+        "{parts}element vertex {}\nproperty double x\nproperty double y\nproperty double z\n\
          element face {}\nproperty list uchar int vertex_indices\nproperty uchar part\nend_header\n",
         tin.vertices.len(),
         tin.triangles.len(),
-    )
+    );
+    bytes.extend_from_slice(elements.as_bytes());
+    bytes
 }
 
 #[cfg(test)]
@@ -59,7 +77,7 @@ mod tests {
     fn round_trip_is_bit_exact() {
         let tin = awkward_tin(120);
         let mut bytes = Vec::new();
-        write_ply(&mut bytes, &tin).unwrap();
+        write_ply(&mut bytes, &tin, &Head::default()).unwrap();
         let (vertices, faces) = read_ply(&bytes);
         let expected: Vec<[u64; 3]> = (0..tin.vertices.len()).map(|i| tin.world(i).to_array().map(f64::to_bits)).collect();
         assert_eq!(vertices, expected);
@@ -69,7 +87,7 @@ mod tests {
     #[test]
     fn header_names_program_and_parts() {
         let mut bytes = Vec::new();
-        write_ply(&mut bytes, &awkward_tin(1)).unwrap();
+        write_ply(&mut bytes, &awkward_tin(1), &Head::default()).unwrap();
         let expected = format!(
             "ply\nformat binary_little_endian 1.0\ncomment {GENERATOR}\ncomment part 0 platform\ncomment part 1 fill_slope\n\
              comment part 2 cut_slope\ncomment part 3 ground\nelement vertex 4\n"
@@ -81,6 +99,6 @@ mod tests {
     fn a_number_that_is_none_is_refused() {
         let mut tin = awkward_tin(3);
         tin.vertices[0].x = f64::INFINITY;
-        assert!(matches!(write_ply(&mut Vec::new(), &tin), Err(EncodeError::NotFinite { index: 1, .. })));
+        assert!(matches!(write_ply(&mut Vec::new(), &tin, &Head::default()), Err(EncodeError::NotFinite { index: 1, .. })));
     }
 }

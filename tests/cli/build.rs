@@ -171,3 +171,27 @@ fn strict_refuses_buried_stretches() {
     );
     assert_eq!(site.new_files(), ["crossing.csv"]);
 }
+
+/// Labels are those of the unit asked for, everywhere; feet are explained.
+#[test]
+fn units_are_named() {
+    for (unit, metres, words) in
+        [("ft", 0.3048, "1 ft = 0.3048 m"), ("us-ft", 1200.0 / 3937.0, "1 us-ft = 1200/3937 m (US survey foot)")]
+    {
+        let site = Site::new();
+        let run = site.run(&format!("build road.geojson --slope 1:1.5 --units {unit} --report r.json --report r.md --report -"));
+        let text = run.done();
+        let lead = format!("\nLengths in {unit}, areas in {unit}², volumes in {unit}³; {words}\n");
+        assert!(text.contains(&lead) && text.contains(&format!(" {unit}³ deficit\n")), "{text}");
+        let rest = text.replace(words, "");
+        for metre in [" m\n", " m²", " m³"] {
+            assert!(!rest.contains(metre), "{metre}: {text}");
+        }
+        assert!(site.read("r.md").contains(&format!(" {unit}³ deficit |\n")), "{}", site.read("r.md"));
+        let report: serde_json::Value = serde_json::from_str(&site.read("r.json")).unwrap();
+        let expected = serde_json::json!({
+            "length": unit, "metres": metres, "area": format!("{unit}²"), "volume": format!("{unit}³")
+        });
+        assert_eq!(report["units"], expected);
+    }
+}

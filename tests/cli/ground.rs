@@ -99,6 +99,7 @@ fn options_that_go_with_ground() {
     let site = site();
     for (job, told) in [
         ("--finished f.obj", "`--finished` needs existing ground"),
+        ("--stations 5 --stakes s.csv --station-table t.csv", "`--station-table` needs existing ground"),
         ("--direction auto", "the direction `auto` needs existing ground"),
         ("--terrain points.csv --reference 3", "volumes are taken against the existing ground"),
         ("--terrain points.csv --side inside", "slopes inside a ring need a direction"),
@@ -106,5 +107,44 @@ fn options_that_go_with_ground() {
         let run = site.run(&format!("build raised.geojson --slope 1:1.5 {job}"));
         assert_eq!(run.code, 2, "{job}: {}", run.stderr);
         assert!(run.stderr.contains(told), "{job}: {}", run.stderr);
+    }
+}
+
+/// The table of stations: its rows are those of the JSON report, wherever it goes.
+#[test]
+fn stations_as_a_table() {
+    let site = site();
+    let job = "build raised.geojson --slope 1:1.5 --terrain points.csv --terrain-order xyz --stations 5 -o m.obj";
+    let text = site.run(&format!("{job} --station-table s.csv --report r.json --report r.md"));
+    assert!(text.done().contains("\nStations ("), "{}", text.stdout);
+    let table = site.read("s.csv");
+    let report: serde_json::Value = serde_json::from_str(&site.read("r.json")).unwrap();
+    let mut rows = table.lines();
+    let header: Vec<&str> = rows.next().unwrap().split(',').collect();
+    let column = |name: &str| header.iter().position(|&n| n == name).unwrap();
+    let stations = report["stations"].as_array().unwrap();
+    // 16 round the pad: breaks at 5, 10 and 15, and the pad itself.
+    assert_eq!((stations.len(), table.lines().count()), (4, 6));
+    let mut fill = 0.0;
+    for (row, station) in rows.zip(stations.iter().chain([&report["pads"]])) {
+        let fields: Vec<&str> = row.split(',').collect();
+        for key in ["to", "cut", "fill", "fill_area", "net_cumulative"] {
+            let expected = station[key].as_f64().map_or(String::new(), |v| v.to_string());
+            assert_eq!(fields[column(key)], expected, "{key} of {row}");
+        }
+        assert_eq!(fields[column("unit")], "m");
+        fill += fields[column("fill")].parse::<f64>().unwrap();
+    }
+    let all = report["volumes"]["fill"].as_f64().unwrap();
+    assert!((fill - all).abs() <= 1e-9 * all, "{fill} {all}");
+    let markdown = site.read("r.md");
+    assert!(markdown.contains("\n## Stations (") && markdown.contains("\n| **total** | |"), "{markdown}");
+    // Standard output takes one thing.
+    assert_eq!(site.run(&format!("{job} --station-table -")).done(), table);
+    for (more, told) in [("--station-table s.txt", "end the name of a table in `.csv`"), ("--station-table -", "--stations")] {
+        let job = if more.ends_with('-') { job.replace("--stations 5 ", "") } else { job.to_owned() };
+        let run = site.run(&format!("{job} {more}"));
+        assert_eq!(run.code, 2, "{more}: {}", run.stderr);
+        assert!(run.stderr.contains(told), "{more}: {}", run.stderr);
     }
 }

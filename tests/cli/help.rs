@@ -82,6 +82,9 @@ fn documented_examples_run() {
         let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(name);
         fs::copy(from, site.path("fixtures").join(name)).unwrap();
     }
+    fs::create_dir(site.path("fixtures/landxml")).unwrap();
+    let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/landxml/site.xml");
+    fs::copy(from, site.path("fixtures/landxml/site.xml")).unwrap();
     let examples = DOCUMENT.split("## Examples").nth(1).unwrap().split("```").nth(1).unwrap();
     let mut count = 0;
     for line in examples.lines().filter(|line| !line.is_empty()) {
@@ -98,6 +101,11 @@ fn documented_examples_run() {
         "finished.obj",
         "yard.ply",
         "yard.geojson",
+        "yard.xml",
+        "yard.dxf",
+        "yard.glb",
+        "yard.glb.origin.json",
+        "yard_lines.dxf",
         "volume.json",
         "road.obj",
         "pad.ply",

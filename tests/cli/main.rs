@@ -2,9 +2,13 @@
 
 mod build;
 mod check;
+#[path = "../common/mod.rs"]
+mod common;
+mod formats;
 mod golden;
 mod ground;
 mod help;
+mod landxml;
 mod messages;
 mod plots;
 mod sample;
@@ -84,6 +88,7 @@ impl Site {
             .timeout(PATIENCE)
             .output()
             .unwrap();
+        common::schema::check_folder(self.folder.path());
         Run {
             code: output.status.code().unwrap_or(-1),
             stdout: String::from_utf8_lossy(&output.stdout).into_owned(),

@@ -52,7 +52,7 @@ fn slopes() {
 #[test]
 fn everything_wrong_with_the_arguments_is_told_at_once() {
     refused(
-        "build road.geojson --slope steep --interval 0 --tolerance -1 --to-elevation nan --csv-order xq -o a.stl --lines b",
+        "build road.geojson --slope steep --interval 0 --tolerance -1 --to-elevation nan --csv-order xq -o a.step --lines b",
         2,
         "error: `q` is no column\n  --> --csv-order xq\n   = help: letters: x or e easting, y or n northing, z elevation, l line \
          id, p point number, d description, _ skip; e.g. xyz, enz, pnezd\n\
@@ -60,9 +60,10 @@ fn everything_wrong_with_the_arguments_is_told_at_once() {
          error: `nan` is not a finite number\n  --> --to-elevation nan\n   = help: give a number such as 12.5\n\
          error: `0` is not above zero\n  --> --interval 0\n   = help: give a positive number\n\
          error: `-1` is too small\n  --> --tolerance -1\n   = help: give 0.000001 or more\n\
-         error: no format is known for the ending `.stl`\n  --> a.stl\n   = help: end the name of a mesh in `.obj` or `.ply`\n\
+         error: no format is known for the ending `.step`\n  --> a.step\n   \
+         = help: end the name of a mesh in `.obj`, `.ply`, `.xml` (LandXML), `.dxf`, `.stl` or `.glb`\n\
          error: the name has no ending that tells the format\n  --> b\n   \
-         = help: end the name of a line-work file in `.geojson` or `.json`",
+         = help: end the name of a line-work file in `.geojson`, `.json`, `.xml` (LandXML) or `.dxf`",
     );
 }
 

@@ -16,9 +16,10 @@ fn site() -> Site {
     site
 }
 
-/// A figure of a JSON report by its dotted path.
+/// A figure of a JSON report by its dotted path; members of lists by their number.
 fn figure(report: &serde_json::Value, path: &str) -> f64 {
-    path.split('.').fold(report, |value, key| &value[key]).as_f64().unwrap_or_else(|| panic!("no {path} in {report}"))
+    let found = report.pointer(&format!("/{}", path.replace('.', "/")));
+    found.and_then(serde_json::Value::as_f64).unwrap_or_else(|| panic!("no {path} in {report}"))
 }
 
 /// The roof is above 3 for 5 < x < 15: a prism of triangles 10 wide and 3 high, `10·3/2·20 = 300`; below as much, two halves.
@@ -49,7 +50,14 @@ fn a_roof_over_ground() {
     assert_eq!(report["volumes"]["balance"], "balanced");
     assert_eq!(report["volumes"]["reference"]["kind"], "terrain");
     assert_eq!(report["inputs"][0]["role"], "design");
-    assert_eq!(site.run("volume roof.obj ground.obj --quiet").done(), "");
+    assert_eq!(site.run("volume roof.obj ground.obj --quiet --report v.md").done(), "");
+    assert!(site.read("v.md").contains("| net (cut − fill) | 0.00 m³ balanced |"), "{}", site.read("v.md"));
+    // The roof: two faces of 20 by √(10² + 6²).
+    assert!((figure(&report, "meshes.0.surface_area") - 40.0 * 136_f64.sqrt()).abs() < 1e-9, "{report}");
+    assert_eq!(figure(&report, "meshes.1.z_min"), 3.0);
+    // 300 over 200.
+    assert!((figure(&report, "depths.fill_mean") - 1.5).abs() < 1e-12, "{report}");
+    assert_eq!(figure(&report, "inputs.1.bytes"), GROUND.len() as f64);
 }
 
 /// Above 4.5 is a similar roof of half the size: `300·(1.5/3)² = 75`; below as much as a box of 4.5 less the rest.
@@ -99,6 +107,7 @@ fn uncovered_design_is_told() {
     assert_eq!(run.code, 0, "{}", run.stderr);
     let report: serde_json::Value = serde_json::from_str(&site.read("v.json")).unwrap();
     assert!((figure(&report, "areas.uncovered") - 500.0).abs() < 1e-9, "{report}");
+    assert_eq!(report["volumes"]["complete"], false);
     let codes: Vec<&str> = report["warnings"].as_array().unwrap().iter().filter_map(|w| w["code"].as_str()).collect();
     assert!(codes.contains(&"design-uncovered") && codes.contains(&"meshes-swapped"), "{codes:?}");
     let run = site.run("volume ground.obj roof.obj --report v.json");

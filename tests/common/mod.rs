@@ -7,3 +7,4 @@ pub(crate) mod build;
 pub(crate) mod lines;
 pub(crate) mod measure;
 pub(crate) mod oracle;
+pub(crate) mod schema;

@@ -1,5 +1,6 @@
 //! Runs of the program, and what they leave.
 
+use crate::common::schema::check_folder;
 use crate::figures::Figures;
 use crate::site::Site;
 use crate::tin::Ground;
@@ -65,6 +66,7 @@ impl Folder {
         // A panic is 101, a hang or a signal −1: neither is an answer.
         let code = output.status.code().unwrap_or(-1);
         assert!((0..=5).contains(&code) && !stderr.contains("panicked"), "{arguments}: exit code {code}\n{stderr}");
+        check_folder(self.0.path());
         Run { code, stderr }
     }
 }

@@ -6,8 +6,9 @@ use crate::model::{Design, Line, Note, Sheet};
 use crate::pipeline::BuildJob;
 use crate::read::Source;
 use crate::report::{
-    Balance, BulkingFigures, Daylight, Depths, ExtentFigures, FinishedFigures, GroundAreas, Reference, Report, SCHEMA,
-    SectionSlopes, Slopes, TerrainFigures, Timing, Tool, Units, VolumeParts, Volumes, station_rows,
+    Balance, BulkingFigures, Daylight, Depths, DesignFigures, ExtentFigures, FinishedFigures, GroundAreas, METHOD, METHOD_TEXT,
+    Reference, Report, SCHEMA, SIGN_RULE, SectionSlopes, Slopes, TerrainFigures, Timing, Tool, Units, VolumeParts, Volumes,
+    station_rows,
 };
 
 /// What the design was built from.
@@ -41,17 +42,20 @@ pub(in crate::pipeline) fn ground_report(
         tool: Tool::default(),
         inputs: vec![input("line", inputs.source), input("terrain", inputs.ground)],
         units: Units::default(),
-        slopes: Slopes { fill: of(Sheet::Falling).map(Into::into), cut: of(Sheet::Rising).map(Into::into) },
+        design: DesignFigures::of(designs, job.wishes.iter().find_map(|wishes| wishes.interval)),
+        slopes: Slopes { fill: of(Sheet::Falling).map(Into::into), cut: of(Sheet::Rising).map(Into::into), ..Slopes::default() },
         line: line_figures(inputs.line, (built.simplified, built.simplified_max), Vec::new()),
         extent: extent.map_or(ExtentFigures::GROUND, Into::into),
         levels,
         surface: surface_figures(&built.design, &built.areas),
         certificate: certificate(&built.certificate),
         volumes: Some(Volumes {
-            method: "prisms".to_owned(),
+            method: METHOD,
+            method_text: METHOD_TEXT,
             cut: total.cut,
             fill: total.fill,
             net: total.net(),
+            sign_rule: SIGN_RULE,
             balance: Balance::of(total.cut, total.fill),
             error_bound: built.error_bound,
             complete: built.complete,

@@ -25,7 +25,7 @@ pub(super) fn read(foreign: Option<&JsonObject>, source: &mut Source) {
 
 /// Whether a reference system is known to count in degrees: CRS84 and its kin, and the EPSG codes from 4001 to 4999 and of
 /// newer geographic systems, which hold geographic systems (and a few geocentric ones, no plan coordinates either).
-fn is_geographic(name: &str) -> bool {
+pub(in crate::read) fn is_geographic(name: &str) -> bool {
     const NEWER: [u32; 12] = [6318, 6319, 6322, 6325, 6783, 7843, 7844, 8237, 8246, 8860, 9000, 10414];
     const SHORTEST_CODE: usize = 4;
     let upper = name.to_ascii_uppercase();

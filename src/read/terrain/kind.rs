@@ -141,6 +141,8 @@ pub(super) fn check(label: &str, bytes: &[u8], format: InputFormat) -> Result<()
     }
     let what = format!("the ground file is not {}", name(format));
     match looks(bytes) {
+        // Its root may stand beyond the first bytes, behind comments.
+        Looks::Other("XML", _) if format == InputFormat::LandXml => Ok(()),
         Looks::Other(found, help) => Err(refuse(&what, label, format!("its content looks like {found}"), help)),
         Looks::Like(found) if found != format => {
             let figures = format!("its content looks like {}", name(found));

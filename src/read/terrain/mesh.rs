@@ -1,7 +1,8 @@
 //! Meshes to be looked at as they are, with whatever is wrong with them.
 
-use super::{InputFormat, RawFaces, ReadError, Source, kind, obj, ply, refuse};
-use crate::model::{Note, Part};
+use super::{InputFormat, Pick, RawFaces, ReadError, Said, Source, kind, obj, ply, refuse};
+use crate::model::{LengthUnit, Note, Part};
+use crate::read::landxml::{self, Known};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use std::io::Read as _;
@@ -25,12 +26,12 @@ pub struct RawMesh {
     pub notes: Vec<Note>,
 }
 
-/// Reads a mesh from an OBJ or PLY file; `-` is standard input.
+/// Reads a mesh from an OBJ, PLY or LandXML file; `-` is standard input. `pick` says which surface is meant of several.
 ///
 /// # Errors
 /// [`ReadError`] when the file cannot be opened, is no mesh, or is damaged: cut off, text where numbers should be, corners that
 /// are not there. What is wrong with the mesh as such is no matter here.
-pub fn read_mesh(path: &Path, format: Option<InputFormat>) -> Result<RawMesh, ReadError> {
+pub fn read_mesh(path: &Path, format: Option<InputFormat>, pick: &Pick) -> Result<RawMesh, ReadError> {
     let from_stdin = path == Path::new("-");
     let label = if from_stdin { "<stdin>".to_owned() } else { path.display().to_string() };
     let mut bytes = Vec::new();
@@ -44,39 +45,50 @@ pub fn read_mesh(path: &Path, format: Option<InputFormat>) -> Result<RawMesh, Re
         Some(format) => format,
         None => kind::only_by_content(&label, &bytes)?,
     };
-    parse_mesh(&label, &bytes, format)
+    parse_mesh(&label, &bytes, format, pick)
 }
 
 /// Reads a mesh from bytes; `label` names them in messages.
 ///
 /// # Errors
 /// As [`read_mesh`].
-pub(super) fn parse_mesh(label: &str, bytes: &[u8], format: InputFormat) -> Result<RawMesh, ReadError> {
-    if !matches!(format, InputFormat::Obj | InputFormat::Ply) {
+pub(super) fn parse_mesh(label: &str, bytes: &[u8], format: InputFormat, pick: &Pick) -> Result<RawMesh, ReadError> {
+    if !matches!(format, InputFormat::Obj | InputFormat::Ply | InputFormat::LandXml) {
         let figures = format!("its format is `{format}`");
-        return Err(refuse("the file is no mesh", label, figures, "give a mesh as OBJ or PLY"));
+        return Err(refuse("the file is no mesh", label, figures, "give a mesh as OBJ, PLY or LandXML"));
     }
     kind::check(label, bytes, format)?;
     // The checksum takes as long as the fast formats themselves.
-    let (source, read) = rayon::join(
+    let (mut source, read) = rayon::join(
         || crate::read::source(label, format, bytes),
         || {
-            let mut notes = Vec::new();
+            let (mut notes, mut said) = (Vec::new(), Said::default());
             let read = match format {
                 InputFormat::Ply => ply::load(label, bytes, &mut notes).map(|loaded| {
                     let named = loaded.parts.iter().map(|&part| part_name(part)).collect::<Vec<_>>();
                     (loaded.vertices, loaded.faces, numbered(named.into_iter()))
                 }),
+                InputFormat::LandXml => {
+                    // Units do not matter for what is looked at.
+                    let known = Known { pick, order: None, unit: Some(LengthUnit::default()) };
+                    let read = landxml::mesh(label, bytes, known, &mut notes);
+                    read.map(|(vertices, faces, of_file)| {
+                        said = of_file;
+                        (vertices, Some(faces), (Vec::new(), Vec::new()))
+                    })
+                }
                 _ => obj::load(label, bytes, &mut notes).map(|loaded| {
                     let count = loaded.faces.as_ref().map_or(0, RawFaces::len);
                     let groups = by_face(&loaded.groups, count);
                     (loaded.vertices, loaded.faces, groups)
                 }),
             };
-            read.map(|read| (read, notes))
+            read.map(|read| (read, said, notes))
         },
     );
-    let ((vertices, faces, (groups, names)), notes) = read?;
+    let ((vertices, faces, (groups, names)), said, notes) = read?;
+    source.crs = said.crs;
+    source.unit = said.unit;
     let faces = faces.unwrap_or(RawFaces::Triangles(Vec::new()));
     Ok(RawMesh { source, vertices, faces, groups, names, notes })
 }
@@ -130,7 +142,7 @@ mod tests {
     const FOUR: &str = "v 0 0 1\nv 1 0 2\nv 1 1 3\nv 0 1 nan\n";
 
     fn obj(text: &str) -> RawMesh {
-        parse_mesh("a.obj", text.as_bytes(), InputFormat::Obj).unwrap()
+        parse_mesh("a.obj", text.as_bytes(), InputFormat::Obj, &Pick::default()).unwrap()
     }
 
     #[test]
@@ -152,15 +164,19 @@ mod tests {
         let header = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n\
                       element face 4\nproperty list uchar int vertex_indices\nproperty uchar part\nend_header\n";
         let text = format!("{header}0 0 1\n1 0 2\n1 1 3\n0 1 nan\n3 0 1 2 1\n3 0 2 3 0\n3 0 1 3 9\n4 0 1 2 3 1\n");
-        let mesh = parse_mesh("a.ply", text.as_bytes(), InputFormat::Ply).unwrap();
+        let mesh = parse_mesh("a.ply", text.as_bytes(), InputFormat::Ply, &Pick::default()).unwrap();
         assert_eq!(mesh.names, ["fill_slope", "platform", "part 9"]);
         assert_eq!(mesh.groups, [0, 1, 2, 0]);
     }
 
     #[test]
     fn what_is_no_mesh_is_refused() {
-        let error = parse_mesh("a.csv", b"1 2 3", InputFormat::Csv).unwrap_err().to_string();
-        assert_eq!(error, "the file is no mesh\n  --> a.csv\n   = its format is `csv`\n   = help: give a mesh as OBJ or PLY");
-        assert!(parse_mesh("a.obj", b"v 0 0 0\nf 1 1 2\n", InputFormat::Obj).unwrap_err().to_string().contains("line 2"));
+        let error = parse_mesh("a.csv", b"1 2 3", InputFormat::Csv, &Pick::default()).unwrap_err().to_string();
+        assert_eq!(
+            error,
+            "the file is no mesh\n  --> a.csv\n   = its format is `csv`\n   = help: give a mesh as OBJ, PLY or LandXML"
+        );
+        let error = parse_mesh("a.obj", b"v 0 0 0\nf 1 1 2\n", InputFormat::Obj, &Pick::default()).unwrap_err().to_string();
+        assert!(error.contains("line 2"));
     }
 }

@@ -1,6 +1,7 @@
 //! Existing ground: bytes → raw meshes, points and grids, in world coordinates and in the order of the file.
 
 mod asc;
+mod comments;
 mod geotiff;
 mod kind;
 mod las;
@@ -21,10 +22,12 @@ use std::path::Path;
 pub struct TerrainOptions {
     /// Its format; `None`: from the extension, else from the content. [`InputFormat::GeoJson`] is no format of ground.
     pub format: Option<InputFormat>,
-    /// The columns of a text file without header.
+    /// The columns of a text file without header; for LandXML `enz`, if easting comes first in it.
     pub csv_order: Option<ColumnOrder>,
     /// What is meant of a file that holds several things.
     pub pick: Pick,
+    /// Unit of files that should declare one and do not.
+    pub unit: Option<LengthUnit>,
 }
 
 impl TerrainOptions {
@@ -143,6 +146,7 @@ fn parse(label: &str, bytes: &[u8], options: &TerrainOptions, by_name: Option<&C
     };
     kind::check(label, bytes, format)?;
     let pick = &options.pick;
+    let known = super::landxml::Known { pick, order: options.csv_order.as_ref(), unit: options.unit };
     // The checksum takes as long as the fast formats themselves.
     let (mut source, read) = rayon::join(
         || super::source(label, format, bytes),
@@ -152,7 +156,7 @@ fn parse(label: &str, bytes: &[u8], options: &TerrainOptions, by_name: Option<&C
                 InputFormat::Obj => obj::read(label, bytes, &mut notes),
                 InputFormat::Ply => ply::read(label, bytes, &mut notes),
                 InputFormat::Asc => asc::read(label, bytes, &mut notes),
-                InputFormat::LandXml => super::landxml::ground(label, bytes, pick, &mut notes),
+                InputFormat::LandXml => super::landxml::ground(label, bytes, known, &mut notes),
                 InputFormat::Dxf => super::dxf::ground(label, bytes, pick, &mut notes),
                 InputFormat::GeoTiff => geotiff::read(label, bytes, &mut notes),
                 InputFormat::Las => las::read(label, bytes, pick, &mut notes),
@@ -184,7 +188,7 @@ pub(in crate::read) fn refuse(what: &str, at: impl Into<String>, figures: impl I
 }
 
 /// A piece of a file short enough for a message, with what cannot be printed replaced.
-fn clip(bytes: &[u8]) -> String {
+pub(in crate::read) fn clip(bytes: &[u8]) -> String {
     const LONGEST: usize = 60;
     let cut = bytes.len() > LONGEST;
     let text: String = String::from_utf8_lossy(&bytes[..bytes.len().min(LONGEST)])
@@ -195,7 +199,7 @@ fn clip(bytes: &[u8]) -> String {
 }
 
 /// Collects faces; stays with plain triangles as long as there is nothing else.
-struct Faces {
+pub(in crate::read) struct Faces {
     triangles: Vec<[u32; 3]>,
     corners: Vec<u32>,
     ends: Vec<usize>,
@@ -203,16 +207,16 @@ struct Faces {
 }
 
 impl Faces {
-    fn with_capacity(count: usize) -> Self {
+    pub(in crate::read) fn with_capacity(count: usize) -> Self {
         Self { triangles: Vec::with_capacity(count), corners: Vec::new(), ends: Vec::new(), mixed: false }
     }
 
     #[inline]
-    fn triangle(&mut self, t: [u32; 3]) {
+    pub(in crate::read) fn triangle(&mut self, t: [u32; 3]) {
         if self.mixed { self.polygon(&t) } else { self.triangles.push(t) }
     }
 
-    fn polygon(&mut self, corners: &[u32]) {
+    pub(in crate::read) fn polygon(&mut self, corners: &[u32]) {
         if !std::mem::replace(&mut self.mixed, true) {
             let triangles = std::mem::take(&mut self.triangles);
             self.ends = (1..=triangles.len()).map(|i| 3 * i).collect();
@@ -226,7 +230,7 @@ impl Faces {
         if self.mixed { self.ends.len() } else { self.triangles.len() }
     }
 
-    fn finish(self) -> RawFaces {
+    pub(in crate::read) fn finish(self) -> RawFaces {
         if self.mixed {
             RawFaces::Polygons { corners: self.corners, ends: self.ends }
         } else {

@@ -8,6 +8,7 @@
 mod diagnose;
 mod feed;
 
+use super::comments::Spoken;
 use super::{Faces, RawFaces, RawGround, Said, refuse};
 use crate::model::Note;
 use crate::read::ReadError;
@@ -15,7 +16,7 @@ use feed::Feed;
 use glam::DVec3;
 
 pub(super) fn read(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
-    let Loaded { vertices, faces, .. } = load(label, bytes, notes)?;
+    let Loaded { vertices, faces, spoken, .. } = load(label, bytes, notes)?;
     if let Some(at) = vertices.iter().position(|p| !p.is_finite()) {
         return Err(diagnose::not_finite(label, &feed::with_line_ends(bytes), at));
     }
@@ -23,7 +24,7 @@ pub(super) fn read(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<(
         Some(faces) => RawGround::Mesh { vertices, faces },
         None => RawGround::Points(vertices),
     };
-    Ok((ground, Said::default()))
+    Ok((ground, spoken.said()))
 }
 
 /// An OBJ file as it is.
@@ -33,6 +34,8 @@ pub(super) struct Loaded {
     pub(super) faces: Option<RawFaces>,
     /// Groups, or else objects: how many faces stand before each, and its name.
     pub(super) groups: Vec<(usize, String)>,
+    /// What the comments say; the vertices are in world coordinates already.
+    pub(super) spoken: Spoken,
 }
 
 /// Reads a file with whatever coordinates it has.
@@ -67,15 +70,17 @@ pub(super) fn load(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<L
         return Err(diagnose::explain(label, bytes, tobj::LoadError::GenericFailure));
     }
     let (points, _) = mesh.positions.as_chunks::<3>();
-    let vertices: Vec<DVec3> = points.iter().map(|&p| DVec3::from(p)).collect();
+    let mut vertices: Vec<DVec3> = points.iter().map(|&p| DVec3::from(p)).collect();
+    let spoken = Spoken::of_obj(bytes);
+    spoken.place(&mut vertices, notes);
     // The face of all vertices is dropped again.
     let corners = &mesh.indices[count..];
     let arities = mesh.face_arities.get(1..).unwrap_or(&[]);
     if corners.is_empty() {
-        return Ok(Loaded { vertices, faces: None, groups });
+        return Ok(Loaded { vertices, faces: None, groups, spoken });
     }
     let faces = faces(corners, arities).map_err(|face| diagnose::small_face(label, bytes, face))?;
-    Ok(Loaded { vertices, faces: Some(faces), groups })
+    Ok(Loaded { vertices, faces: Some(faces), groups, spoken })
 }
 
 /// Faces of the given numbers of corners; without numbers all are triangles. The error is the first face of fewer than three.

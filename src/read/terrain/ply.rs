@@ -3,6 +3,7 @@
 mod header;
 mod scan;
 
+use super::comments::Spoken;
 use super::{Faces, RawFaces, RawGround, Said, clip, refuse};
 use crate::model::Note;
 use crate::read::ReadError;
@@ -17,7 +18,7 @@ const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
 const PART: &str = "part";
 
 pub(super) fn read(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
-    let Loaded { vertices, faces, .. } = load(label, bytes, notes)?;
+    let Loaded { vertices, faces, spoken, .. } = load(label, bytes, notes)?;
     if let Some(at) = vertices.iter().position(|v| !v.is_finite()) {
         let v = vertices[at];
         let at = format!("{label}, vertex {}", at + 1);
@@ -28,7 +29,7 @@ pub(super) fn read(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<(
         Some(faces) => RawGround::Mesh { vertices, faces },
         None => RawGround::Points(vertices),
     };
-    Ok((ground, Said::default()))
+    Ok((ground, spoken.said()))
 }
 
 /// A PLY file as it is.
@@ -38,6 +39,8 @@ pub(super) struct Loaded {
     pub(super) faces: Option<RawFaces>,
     /// The property `part` of each face; empty if there is none.
     pub(super) parts: Vec<f64>,
+    /// What the comments say; the vertices are in world coordinates already.
+    pub(super) spoken: Spoken,
 }
 
 /// Reads a file with whatever coordinates it has.
@@ -66,7 +69,7 @@ pub(super) fn load(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<L
         let help = "the header does not fit the data: export the mesh again";
         return Err(refuse("the PLY file goes on after its last element", label, format!("{} bytes", scan.rest.len()), help));
     }
-    let Some(vertices) = vertices.filter(|v| !v.is_empty()) else {
+    let Some(mut vertices) = vertices.filter(|v| !v.is_empty()) else {
         let help = "export the mesh again, with an element `vertex`";
         return Err(refuse("the PLY file has no vertices", label, "there is no element `vertex`, or it is empty", help));
     };
@@ -83,7 +86,9 @@ pub(super) fn load(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<L
     if !others.is_empty() {
         notes.push(Note::new("ply-elements-ignored", format!("elements passed over: `{}`", others.join("`, `"))));
     }
-    Ok(Loaded { vertices, faces, parts })
+    let spoken = Spoken::of_ply(&bytes[..header.body]);
+    spoken.place(&mut vertices, notes);
+    Ok(Loaded { vertices, faces, parts, spoken })
 }
 
 fn check_indices(label: &str, faces: &RawFaces, count: usize) -> Result<(), ReadError> {

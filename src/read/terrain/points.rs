@@ -16,6 +16,7 @@ pub(super) fn read(
     let mut source = Source {
         label: label.to_owned(),
         format: InputFormat::Csv,
+        bytes: bytes.len() as u64,
         sha256: String::new(),
         crs: None,
         kind: CoordinateKind::Unknown,

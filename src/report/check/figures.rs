@@ -1,13 +1,14 @@
 //! The figures of a check, as they stand in its report.
 
-use crate::mesh::quality::{Bound, Finding, Kept, Loop, Place, Severity, Share, Slopes};
+use crate::mesh::quality::{Bound, Finding, Kept, Kind, Loop, Place, Severity, Share, Slopes};
 use crate::model::Slope;
 use crate::report::SlopeFigures;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// A place with the figures found there.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct PlaceFigures {
     /// World coordinates.
     pub at: [f64; 3],
@@ -17,7 +18,7 @@ pub struct PlaceFigures {
     /// Numbers of vertices, counted from 1.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub vertices: Vec<usize>,
-    /// Figures by their names.
+    /// Figures found there, by their names.
     #[serde(flatten)]
     pub figures: BTreeMap<&'static str, f64>,
 }
@@ -34,13 +35,15 @@ impl From<&Place> for PlaceFigures {
 }
 
 /// All there is of one kind.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FindingFigures {
     /// Stable name.
+    #[schemars(extend("enum" = Kind::ALL.map(Kind::code)))]
     pub code: &'static str,
-    /// `error` or `remark`.
+    /// An error makes the surface unsound, a remark does not.
+    #[schemars(extend("enum" = ["error", "remark"]))]
     pub severity: &'static str,
-    /// How many.
+    /// How many there are.
     pub count: usize,
     /// Counting was given up; there may be more.
     pub at_least: bool,
@@ -64,56 +67,62 @@ impl From<&Finding> for FindingFigures {
 }
 
 /// The boundary of the surface.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct BoundaryFigures {
-    /// Loops around pieces.
+    /// Number of loops around pieces.
     pub outer: usize,
-    /// Loops around holes.
+    /// Number of loops around holes.
     pub holes: usize,
-    /// Loops along seams that are not joined.
+    /// Number of loops along seams that are not joined.
     pub seams: usize,
-    /// Stretches that do not close.
+    /// Number of stretches that do not close.
     pub unclosed: usize,
-    /// Plan length of all.
+    /// Length of all in plan.
+    #[schemars(range(min = 0))]
     pub length: f64,
     /// The longest of them.
     pub loops: Vec<LoopFigures>,
 }
 
 /// A loop of the boundary.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct LoopFigures {
-    /// `outer`, `hole`, `seam` or `unclosed`.
+    /// What it runs around, or along.
+    #[schemars(extend("enum" = ["outer", "hole", "seam", "unclosed"]))]
     pub kind: &'static str,
-    /// Its edges.
+    /// Edges of the loop.
     pub edges: usize,
     /// Plan length.
+    #[schemars(range(min = 0))]
     pub length: f64,
     /// Plan area it surrounds.
+    #[schemars(range(min = 0))]
     pub area: f64,
-    /// Its first vertex.
+    /// First vertex, world coordinates.
     pub at: [f64; 3],
 }
 
 /// Some triangles.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ShareFigures {
-    /// How many.
+    /// Number of triangles.
     pub triangles: usize,
     /// Their area in space.
+    #[schemars(range(min = 0))]
     pub area: f64,
-    /// Its share, 0 to 1.
+    /// Share of the area, 0 to 1.
+    #[schemars(range(min = 0, max = 1))]
     pub share: f64,
 }
 
 impl ShareFigures {
     pub(super) fn new(of: &Share, all: f64) -> Self {
-        Self { triangles: of.triangles, area: of.area, share: if all > 0.0 { of.area / all } else { 0.0 } }
+        Self { triangles: of.triangles, area: of.area, share: if all > 0.0 { (of.area / all).min(1.0) } else { 0.0 } }
     }
 }
 
 /// The slope of one triangle.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ExtremeFigures {
     /// Angle in degrees.
     pub degrees: f64,
@@ -123,11 +132,11 @@ pub struct ExtremeFigures {
 }
 
 /// One bin of a histogram.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct BinFigures {
     /// From this angle on, degrees.
     pub from: f64,
-    /// Up to this one.
+    /// Up to this angle, degrees.
     pub to: f64,
     /// What is in it.
     #[serde(flatten)]
@@ -135,40 +144,44 @@ pub struct BinFigures {
 }
 
 /// A slope much of the surface has.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct CommonFigures {
     /// Angle in degrees.
     pub degrees: f64,
     /// Run per unit of rise.
     pub one_in: f64,
     /// Share of the area, 0 to 1.
+    #[schemars(range(min = 0, max = 1))]
     pub share: f64,
 }
 
 /// Slopes of a surface or a part.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct SlopesFigures {
     /// Triangles with an area.
     pub triangles: usize,
     /// Their area in plan.
+    #[schemars(range(min = 0))]
     pub plan_area: f64,
     /// Their area in space.
+    #[schemars(range(min = 0))]
     pub surface_area: f64,
     /// Triangles too low for an angle to be told; the rest is about the others.
     pub thin: ShareFigures,
-    /// Flatter than 0.1°.
+    /// Triangles flatter than 0.1°.
     pub level: ShareFigures,
-    /// Steeper than 89.9°.
+    /// Triangles steeper than 89.9°.
     pub upright: ShareFigures,
     /// Mean over area, degrees.
+    #[schemars(range(min = 0, max = 90))]
     pub mean_degrees: f64,
-    /// The flattest.
+    /// The flattest triangle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flattest: Option<ExtremeFigures>,
-    /// The steepest.
+    /// The steepest triangle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steepest: Option<ExtremeFigures>,
-    /// The most common slopes.
+    /// Up to three slopes that 2 % of the area or more have.
     pub common: Vec<CommonFigures>,
     /// Bins of one degree that hold something.
     pub histogram: Vec<BinFigures>,
@@ -195,7 +208,11 @@ impl From<&Slopes> for SlopesFigures {
             common: s
                 .common
                 .iter()
-                .map(|c| CommonFigures { degrees: c.degrees, one_in: 1.0 / c.degrees.to_radians().tan(), share: c.share })
+                .map(|c| CommonFigures {
+                    degrees: c.degrees,
+                    one_in: 1.0 / c.degrees.to_radians().tan(),
+                    share: c.share.min(1.0),
+                })
                 .collect(),
             histogram: s.bins.iter().enumerate().filter(|(_, b)| b.triangles > 0).map(bin).collect(),
         }
@@ -203,19 +220,19 @@ impl From<&Slopes> for SlopesFigures {
 }
 
 /// A part of the surface.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct PartFigures {
     /// Name of the group.
     pub name: String,
-    /// Its slopes.
+    /// Slopes of the part.
     #[serde(flatten)]
     pub slopes: SlopesFigures,
 }
 
 /// Smallest angles.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct AngleFigures {
-    /// The smallest of all.
+    /// The smallest angle of all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub smallest: Option<ExtremeFigures>,
     /// How many triangles have their smallest angle in a range.
@@ -223,24 +240,26 @@ pub struct AngleFigures {
 }
 
 /// One bin of smallest angles.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct AngleBin {
     /// From this angle on, degrees.
     pub from: f64,
-    /// Up to this one.
+    /// Up to this angle, degrees.
     pub to: f64,
-    /// How many.
+    /// Number of triangles.
     pub triangles: usize,
 }
 
 /// How the slope asked for is kept.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct BoundFigures {
-    /// The slope.
+    /// The slope asked for.
     pub slope: SlopeFigures,
-    /// Deviation within which a triangle is on it.
+    /// Deviation in degrees within which a triangle is on it.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub tolerance_deg: f64,
     /// Share of the area that may be off it, 0 to 1.
+    #[schemars(range(min = 0, max = 1))]
     pub max_off: f64,
     /// Parts it is about; empty: all that is not level.
     pub parts: Vec<String>,

@@ -27,6 +27,7 @@ fn report() -> CheckReport {
     let input = Input {
         role: "mesh".into(),
         path: "site/design.obj".into(),
+        bytes: 4321,
         sha256: "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08".into(),
         format: "obj".into(),
         crs: None,
@@ -44,7 +45,7 @@ fn written(format: ReportFormat, report: &CheckReport) -> String {
 }
 
 #[test]
-fn both_forms_are_pinned() {
+fn all_forms_are_pinned() {
     let report = report();
     crate::report::testing::compare(
         &written(ReportFormat::Json, &report),
@@ -55,6 +56,11 @@ fn both_forms_are_pinned() {
         &written(ReportFormat::Text, &report),
         include_str!("../../../tests/golden/check.txt"),
         "check.txt",
+    );
+    crate::report::testing::compare(
+        &written(ReportFormat::Markdown, &report),
+        include_str!("../../../tests/golden/check.md"),
+        "check.md",
     );
 }
 

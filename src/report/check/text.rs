@@ -2,38 +2,38 @@
 
 use super::{BoundFigures, CheckReport, FindingFigures, PartFigures, PlaceFigures, ShareFigures, SlopesFigures};
 use crate::model::Slope;
-use std::fmt::Write as _;
+use crate::report::page::{Column, Group, Page, Row, printable};
 
-/// Width of the names before the figures.
-const NAME: usize = 20;
 /// Degrees of a bin of the histogram as printed.
 const BIN: usize = 5;
 /// Length of the longest bar of the histogram.
 const BAR: f64 = 40.0;
-/// Hexadecimal digits of a SHA-256 that tell files apart by eye.
-const SHORT_SHA: usize = 12;
 /// Parts that are listed.
 const MOST_PARTS: usize = 12;
 
 /// The report as plain text. The same report gives the same bytes.
 pub fn render_check(report: &CheckReport) -> String {
-    let unit = &report.units.length;
-    let mut text =
-        format!("{} {}: check of a surface\nLengths in {unit}, areas in {unit}²\n\n", report.tool.name, report.tool.version);
-    line(&mut text, verdict(report));
-    section(&mut text, "Mesh");
-    for input in &report.inputs {
-        let short = input.sha256.get(..SHORT_SHA).unwrap_or(&input.sha256);
-        named(&mut text, "input", format!("{} ({}, sha256 {short})", printable(&input.path), input.format));
-    }
+    page(report).plain()
+}
+
+/// The report as Markdown: what the plain text says, in tables.
+pub fn render_check_markdown(report: &CheckReport) -> String {
+    page(report).markdown()
+}
+
+fn page(report: &CheckReport) -> Page {
+    let mut page = Page::new(&report.tool, "check of a surface", &report.units, false);
+    page.verdict(verdict(report));
+    page.section("Mesh");
+    page.inputs(&report.inputs);
     let mesh = &report.mesh;
     let split = if mesh.faces == mesh.triangles { String::new() } else { format!(" from {} faces", mesh.faces) };
-    named(&mut text, "size", format!("{} vertices, {} triangles{split}", mesh.vertices, mesh.triangles));
+    page.words("size", &format!("{} vertices, {} triangles{split}", mesh.vertices, mesh.triangles));
     if let (Some(lo), Some(hi)) = (mesh.min, mesh.max) {
         let range = |i: usize| format!("{:.3} to {:.3}", lo[i], hi[i]);
-        named(&mut text, "extent", format!("x {}, y {}, z {}", range(0), range(1), range(2)));
+        page.words("extent", &format!("x {}, y {}, z {}", range(0), range(1), range(2)));
     }
-    named(&mut text, "area", format!("{:.2} in plan, {:.2} in space", mesh.plan_area, mesh.surface_area));
+    page.words("area", &format!("{:.2} in plan, {:.2} in space", mesh.plan_area, mesh.surface_area));
     let boundary = &report.boundary;
     let mut loops = vec![count(boundary.outer, "outer loop", "outer loops"), count(boundary.holes, "hole", "holes")];
     if boundary.seams > 0 {
@@ -43,34 +43,29 @@ pub fn render_check(report: &CheckReport) -> String {
         loops.push(format!("{} not closed", boundary.unclosed));
     }
     let pieces = count(mesh.pieces, "piece", "pieces");
-    named(&mut text, "boundary", format!("{pieces}, {}, length {:.3}", loops.join(", "), boundary.length));
+    page.words("boundary", &format!("{pieces}, {}, length {:.3}", loops.join(", "), boundary.length));
     for (severity, title) in [("error", "Errors"), ("remark", "Remarks")] {
         let found: Vec<&FindingFigures> = report.findings.iter().filter(|f| f.severity == severity).collect();
         if !found.is_empty() {
-            section(&mut text, title);
-            found.into_iter().for_each(|f| finding(&mut text, f));
+            page.section(title);
+            found.into_iter().for_each(|f| finding(&mut page, f));
         }
     }
-    slopes(&mut text, &report.slopes);
+    slopes(&mut page, &report.slopes);
     if report.parts.len() > 1 {
-        parts(&mut text, &report.parts);
+        parts(&mut page, &report.parts);
     }
     if let Some(bound) = &report.slope_bound {
-        self::bound(&mut text, bound);
+        self::bound(&mut page, bound);
     }
     if let Some(smallest) = &report.angles.smallest {
-        section(&mut text, "Smallest angles");
+        page.section("Smallest angles");
         let bins = report.angles.histogram.iter().map(|bin| format!("to {}°: {}", bin.to, bin.triangles));
-        named(&mut text, "triangles", bins.collect::<Vec<_>>().join(", "));
-        named(&mut text, "smallest", format!("{:.4}°{}", smallest.degrees, place(&smallest.place)));
+        page.words("triangles", &bins.collect::<Vec<_>>().join(", "));
+        page.words("smallest", &format!("{:.4}°  {}", smallest.degrees, place(&smallest.place)));
     }
-    if !report.warnings.is_empty() {
-        section(&mut text, "Notes");
-        for warning in &report.warnings {
-            line(&mut text, format!("  {}: {}", warning.code, printable(&warning.message)));
-        }
-    }
-    text
+    page.warnings("Notes", &report.warnings);
+    page
 }
 
 fn verdict(report: &CheckReport) -> String {
@@ -86,20 +81,18 @@ fn verdict(report: &CheckReport) -> String {
     format!("{}: {sound}{kept}", if v.passed { "PASSED" } else { "FAILED" })
 }
 
-fn finding(text: &mut String, f: &FindingFigures) {
+fn finding(page: &mut Page, f: &FindingFigures) {
     let least = if f.at_least { "at least " } else { "" };
-    line(text, format!("  {least}{} {} [{}]", f.count, f.message, f.code));
-    for p in &f.places {
-        line(text, format!("     {}", place(p).trim_start()));
-    }
+    let mut below: Vec<String> = f.places.iter().map(place).collect();
     if f.count > f.places.len() && !f.places.is_empty() {
-        line(text, format!("     … and {} more", f.count - f.places.len()));
+        below.push(format!("… and {} more", f.count - f.places.len()));
     }
+    page.remark(&format!("{least}{} {} [{}]", f.count, f.message, f.code), below);
 }
 
 fn place(p: &PlaceFigures) -> String {
     let [x, y, z] = p.at;
-    let mut text = format!("  at ({x:.3}, {y:.3}, {z:.3})");
+    let mut text = format!("at ({x:.3}, {y:.3}, {z:.3})");
     for (name, names, numbers) in [("triangle", "triangles", &p.triangles), ("vertex", "vertices", &p.vertices)] {
         let list: Vec<String> = numbers.iter().map(usize::to_string).collect();
         match list.len() {
@@ -115,12 +108,12 @@ fn place(p: &PlaceFigures) -> String {
     text
 }
 
-fn slopes(text: &mut String, s: &SlopesFigures) {
+fn slopes(page: &mut Page, s: &SlopesFigures) {
     let (Some(flattest), Some(steepest)) = (&s.flattest, &s.steepest) else { return };
-    section(text, "Slopes (by area in space)");
-    named(text, "flattest", format!("{:.4}°{}", flattest.degrees, place(&flattest.place)));
-    named(text, "steepest", format!("{:.4}°{}", steepest.degrees, place(&steepest.place)));
-    named(text, "mean", format!("{:.4}°", s.mean_degrees));
+    page.section("Slopes (by area in space)");
+    page.words("flattest", &format!("{:.4}°  {}", flattest.degrees, place(&flattest.place)));
+    page.words("steepest", &format!("{:.4}°  {}", steepest.degrees, place(&steepest.place)));
+    page.words("mean", &format!("{:.4}°", s.mean_degrees));
     let common = s.common.iter().filter_map(|c| {
         let slope = Slope::from_ratio(c.degrees.to_radians().tan())?;
         let forms = slope.forms();
@@ -129,11 +122,11 @@ fn slopes(text: &mut String, s: &SlopesFigures) {
     });
     let common: Vec<String> = common.collect();
     if !common.is_empty() {
-        named(text, "most common", common.join(", "));
+        page.words("most common", &common.join(", "));
     }
-    named(text, "level, upright", format!("{}, {}", share(&s.level), share(&s.upright)));
+    page.words("level, upright", &format!("{}, {}", share(&s.level), share(&s.upright)));
     if s.thin.triangles > 0 {
-        named(text, "too low to tell", share(&s.thin));
+        page.words("too low to tell", &share(&s.thin));
     }
     let bins: Vec<(usize, f64, usize)> = (0..90 / BIN)
         .map(|i| {
@@ -143,62 +136,58 @@ fn slopes(text: &mut String, s: &SlopesFigures) {
         .filter(|bin| bin.2 > 0)
         .collect();
     let most = bins.iter().map(|bin| bin.1).fold(f64::MIN_POSITIVE, f64::max);
-    for (from, part, triangles) in bins {
+    let row = |(from, part, triangles): (usize, f64, usize)| {
         let bar = "#".repeat((BAR * part / most).round() as usize);
-        line(
-            text,
-            format!("  {from:>2}° to {:>2}° {:>9} {triangles:>9}  {bar}", from + BIN, percent(part)).trim_end().to_owned(),
-        );
-    }
+        Row::Cells(vec![format!("{from}° to {:>2}°", from + BIN), percent(part), triangles.to_string(), bar])
+    };
+    let columns =
+        vec![Column::numbers("slope", 0), Column::numbers("area", 9), Column::numbers("triangles", 9), Column::words("")];
+    page.table(vec![Group { title: "", columns }], bins.into_iter().map(row).collect());
 }
 
-fn parts(text: &mut String, parts: &[PartFigures]) {
-    section(text, "Parts");
-    let width = parts.iter().take(MOST_PARTS).map(|p| printable(&p.name).chars().count()).max().unwrap_or(0).max(NAME - 2);
-    line(
-        text,
-        format!(
-            "  {:width$}{:>10}{:>14}{:>14}{:>10}{:>10}{:>10}",
-            "name", "triangles", "plan area", "area", "flattest", "mean", "steepest"
-        ),
-    );
-    for p in parts.iter().take(MOST_PARTS) {
+fn parts(page: &mut Page, parts: &[PartFigures]) {
+    page.section("Parts");
+    let columns = ["triangles", "plan area", "area", "flattest", "mean", "steepest"].map(|name| Column::numbers(name, 8));
+    let columns = std::iter::once(Column::words("name")).chain(columns).collect();
+    let row = |p: &PartFigures| {
         let s = &p.slopes;
         let degrees =
             |found: &Option<super::ExtremeFigures>| found.as_ref().map_or("-".to_owned(), |f| format!("{:.2}°", f.degrees));
-        let (flattest, steepest) = (degrees(&s.flattest), degrees(&s.steepest));
-        let name = printable(&p.name);
-        line(
-            text,
-            format!(
-                "  {name:width$}{:>10}{:>14.2}{:>14.2}{flattest:>10}{:>9.2}°{steepest:>10}",
-                s.triangles, s.plan_area, s.surface_area, s.mean_degrees
-            ),
-        );
-    }
+        Row::Cells(vec![
+            printable(&p.name),
+            s.triangles.to_string(),
+            format!("{:.2}", s.plan_area),
+            format!("{:.2}", s.surface_area),
+            degrees(&s.flattest),
+            format!("{:.2}°", s.mean_degrees),
+            degrees(&s.steepest),
+        ])
+    };
+    let mut rows: Vec<Row> = parts.iter().take(MOST_PARTS).map(row).collect();
     if parts.len() > MOST_PARTS {
-        line(text, format!("  … and {} more", parts.len() - MOST_PARTS));
+        rows.push(Row::Heading(format!("… and {} more", parts.len() - MOST_PARTS)));
     }
+    page.table(vec![Group { title: "", columns }], rows);
 }
 
-fn bound(text: &mut String, b: &BoundFigures) {
-    section(text, "Slope asked for");
+fn bound(page: &mut Page, b: &BoundFigures) {
+    page.section("Slope asked for");
     let forms = b.wanted().map_or_else(|| b.slope.ratio.to_string(), Slope::forms);
-    named(text, "slope", format!("{forms}, within {}°", b.tolerance_deg));
+    page.words("slope", &format!("{forms}, within {}°", b.tolerance_deg));
     let about = if b.parts.is_empty() { "all that is not level".to_owned() } else { printable(&b.parts.join(", ")) };
-    named(text, "asked of", about);
-    named(text, "on it", share(&b.within));
-    named(text, "off it", format!("{}; {} may be", share(&b.off), percent(b.max_off)));
+    page.words("asked of", &about);
+    page.words("on it", &share(&b.within));
+    page.words("off it", &format!("{}; {} may be", share(&b.off), percent(b.max_off)));
     if b.parts.is_empty() && b.level.triangles > 0 {
-        named(text, "level, left out", share(&b.level));
+        page.words("level, left out", &share(&b.level));
     }
     if b.thin.triangles > 0 {
-        named(text, "too low to tell", share(&b.thin));
+        page.words("too low to tell", &share(&b.thin));
     }
-    for p in &b.worst {
-        line(text, format!("     {}", place(p).trim_start()));
+    page.words("kept", if b.passed { "yes" } else { "NO" });
+    if !b.worst.is_empty() {
+        page.remark("triangles that deviate most", b.worst.iter().map(place).collect());
     }
-    named(text, "kept", if b.passed { "yes" } else { "NO" }.to_owned());
 }
 
 fn share(s: &ShareFigures) -> String {
@@ -228,22 +217,4 @@ fn small(value: f64) -> String {
 
 fn count(n: usize, one: &str, several: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { several })
-}
-
-fn section(text: &mut String, title: &str) {
-    // Writing to a String cannot fail.
-    let _ = writeln!(text, "\n{title}");
-}
-
-fn line(text: &mut String, words: String) {
-    let _ = writeln!(text, "{words}");
-}
-
-fn named(text: &mut String, name: &str, words: String) {
-    let _ = writeln!(text, "  {name:NAME$}{}", words.trim_start());
-}
-
-/// Text from a file, without characters that would move the cursor or colour a terminal.
-fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

@@ -1,9 +1,8 @@
 //! The report of a comparison for people.
 
-use super::{Page, SHORT_SHA, printable};
 use crate::report::between::{BetweenReference, BetweenReport, Spot};
+use crate::report::page::Page;
 use crate::write::EncodeError;
-use std::fmt::Write as _;
 use std::io::Write;
 
 /// Volumes below this are printed as nought.
@@ -18,20 +17,31 @@ pub fn write_between(out: &mut (impl Write + ?Sized), report: &BetweenReport) ->
     Ok(())
 }
 
+/// Writes the report of a comparison as Markdown, UTF-8: what the plain text says, in tables.
+///
+/// # Errors
+/// [`EncodeError::Io`] from the sink.
+pub fn write_between_markdown(out: &mut (impl Write + ?Sized), report: &BetweenReport) -> Result<(), EncodeError> {
+    out.write_all(page(report).markdown().as_bytes())?;
+    Ok(())
+}
+
 fn render(report: &BetweenReport) -> String {
-    let unit = report.units.length.as_str();
-    let mut page = Page { text: String::new(), unit };
-    page.text = format!(
-        "{} {}: cut and fill between two surfaces\nLengths in {unit}, areas in {unit}², volumes in {unit}³\n",
-        report.tool.name, report.tool.version
-    );
+    page(report).plain()
+}
+
+fn page(report: &BetweenReport) -> Page {
+    let mut page = Page::new(&report.tool, "cut and fill between two surfaces", &report.units, true);
     page.section("Input");
-    for input in &report.inputs {
-        let short = input.sha256.get(..SHORT_SHA).unwrap_or(&input.sha256);
-        page.words(&input.role, &format!("{} ({}, sha256 {short})", input.path, input.format));
-    }
+    page.inputs(&report.inputs);
     for mesh in &report.meshes {
-        page.words(&format!("{} mesh", mesh.role), &format!("{} vertices, {} triangles", mesh.vertices, mesh.triangles));
+        page.section(&format!("Surface: {}", mesh.role));
+        page.count("vertices", mesh.vertices);
+        page.count("triangles", mesh.triangles);
+        page.length("lowest", mesh.z_min);
+        page.length("highest", mesh.z_max);
+        page.area("area in plan", mesh.plan_area);
+        page.area("area of the surface", mesh.surface_area);
     }
     let v = &report.volumes;
     match &v.reference {
@@ -47,9 +57,12 @@ fn render(report: &BetweenReport) -> String {
     // What is left of rounding is no deficit.
     let net = if v.net.abs() < ROUNDED { 0.0 } else { v.net };
     page.volume("net (cut − fill)", net, &format!(" {}", v.balance.word()));
+    page.words("complete", if v.complete { "yes" } else { "NO, not all of the design lies over the existing surface" });
     if let Some(cells) = v.cells {
         page.count("prisms", cells);
     }
+    page.words("method", v.method_text);
+    page.words("sign", v.sign_rule);
     let a = &report.areas;
     page.section("Areas in plan");
     page.area("cut", a.cut);
@@ -64,20 +77,19 @@ fn render(report: &BetweenReport) -> String {
     }
     page.section("Depths");
     let d = &report.depths;
-    for (name, depth, spot) in [("deepest cut", d.cut_max, d.cut_max_at), ("deepest fill", d.fill_max, d.fill_max_at)] {
+    for (name, depth, mean, spot) in
+        [("deepest cut", d.cut_max, d.cut_mean, d.cut_max_at), ("deepest fill", d.fill_max, d.fill_mean, d.fill_max_at)]
+    {
         page.length(name, depth);
+        if let Some(mean) = mean {
+            page.length("  mean", mean);
+        }
         if let Some(Spot { x, y, z }) = spot {
             page.words("  at", &format!("{x:.3}, {y:.3}, {z:.3}"));
         }
     }
-    if !report.warnings.is_empty() {
-        page.section("Warnings");
-        for warning in &report.warnings {
-            let message: Vec<String> = warning.message.lines().map(printable).collect();
-            let _ = writeln!(page.text, "  {}: {}", warning.code, message.join("\n    "));
-        }
-    }
-    page.text
+    page.warnings("Warnings", &report.warnings);
+    page
 }
 
 #[cfg(test)]
@@ -89,6 +101,20 @@ mod tests {
     #[test]
     fn a_full_comparison_is_pinned() {
         compare(&render(&full()), include_str!("../../../tests/golden/between.txt"), "between.txt");
+    }
+
+    #[test]
+    fn markdown_is_pinned() {
+        let mut bytes = Vec::new();
+        write_between_markdown(&mut bytes, &full()).unwrap();
+        let text = String::from_utf8(bytes).unwrap();
+        compare(&text, include_str!("../../../tests/golden/between.md"), "between.md");
+    }
+
+    #[test]
+    fn lines_fit_a_terminal() {
+        let text = render(&full());
+        assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
     }
 
     #[test]

@@ -1,14 +1,14 @@
 //! What the report for people says about existing ground.
 
-use super::{NAME, NUMBER, Page, printable};
 use crate::model::Slope;
+use crate::report::page::{Column, Group, NAME, NUMBER, Page, Row, printable};
 use crate::report::{
     BulkingFigures, CutFillFigures, DepthPlace, Depths, PadRow, Report, SlopeFigures, SlopeRange, StationRow, Volumes,
 };
 use std::fmt::Write as _;
 
 /// The slope as a section perpendicular to the line shows it.
-pub(super) fn section_slope(page: &mut Page<'_>, range: SlopeRange) {
+pub(super) fn section_slope(page: &mut Page, range: SlopeRange) {
     let short = |slope: SlopeFigures| Slope::from_ratio(slope.ratio).map_or_else(|| slope.ratio.to_string(), Slope::short);
     let (min, max) = (short(range.min), short(range.max));
     let range = if min == max { max } else { format!("{min} to {max}") };
@@ -16,7 +16,7 @@ pub(super) fn section_slope(page: &mut Page<'_>, range: SlopeRange) {
 }
 
 /// Existing ground, finished ground, daylight line.
-pub(super) fn terrain(page: &mut Page<'_>, report: &Report) {
+pub(super) fn terrain(page: &mut Page, report: &Report) {
     if let Some(terrain) = report.terrain {
         page.section("Existing ground");
         page.count("vertices", terrain.vertices);
@@ -48,23 +48,29 @@ pub(super) fn terrain(page: &mut Page<'_>, report: &Report) {
 }
 
 /// Parts and figures from sections, cut beside fill.
-pub(super) fn volumes(page: &mut Page<'_>, volumes: &Volumes) {
+pub(super) fn volumes(page: &mut Page, volumes: &Volumes) {
     let mut rows: Vec<(&str, CutFillFigures)> = Vec::new();
     if let Some(parts) = volumes.parts {
         rows.extend([("platform", parts.platform), ("slopes", parts.slopes)]);
     }
     rows.extend(volumes.end_area.map(|figures| ("average end area", figures)));
     rows.extend(volumes.prismoidal.map(|figures| ("prismoidal", figures)));
-    if !rows.is_empty() {
-        let _ = writeln!(page.text, "  {:NAME$}{:>NUMBER$}{:>NUMBER$}", "", "cut", "fill");
+    if rows.is_empty() {
+        return;
     }
-    for (name, figures) in rows {
-        let _ = writeln!(page.text, "  {name:NAME$}{:>NUMBER$.2}{:>NUMBER$.2} {}³", figures.cut, figures.fill, page.unit);
-    }
+    let unit = page.unit_of_volume().to_owned();
+    let row = |(name, figures): (&str, CutFillFigures)| {
+        Row::Cells(vec![name.to_owned(), format!("{:.2} {unit}", figures.cut), format!("{:.2} {unit}", figures.fill)])
+    };
+    // Numbers stand below those of other figures, their unit behind.
+    let number = NUMBER - 2 + 1 + unit.chars().count();
+    let name = Column { least: NAME, ..Column::words("") };
+    let columns = vec![name, Column::numbers("cut", number), Column::numbers("fill", number)];
+    page.table(vec![Group { title: "", columns }], rows.into_iter().map(row).collect());
 }
 
 /// What becomes of cut and fill when soil changes its volume.
-pub(super) fn bulking(page: &mut Page<'_>, soil: BulkingFigures) {
+pub(super) fn bulking(page: &mut Page, soil: BulkingFigures) {
     /// Digits that a share is typed with.
     const DIGITS: f64 = 1e10;
     let percent = |share: f64| (100.0 * share * DIGITS).round() / DIGITS;
@@ -79,12 +85,15 @@ pub(super) fn bulking(page: &mut Page<'_>, soil: BulkingFigures) {
 }
 
 /// The places of the greatest depths.
-pub(super) fn depths(page: &mut Page<'_>, depths: &Depths) {
-    for (name, depth, place) in [
-        ("deepest cut", depths.cut_max, depths.cut_max_at.as_ref()),
-        ("deepest fill", depths.fill_max, depths.fill_max_at.as_ref()),
+pub(super) fn depths(page: &mut Page, depths: &Depths) {
+    for (name, depth, mean, place) in [
+        ("deepest cut", depths.cut_max, depths.cut_mean, depths.cut_max_at.as_ref()),
+        ("deepest fill", depths.fill_max, depths.fill_mean, depths.fill_max_at.as_ref()),
     ] {
         page.length(name, depth);
+        if let Some(mean) = mean {
+            page.length("  mean", mean);
+        }
         if let Some(place) = place {
             page.words("  at", &self::place(place));
         }
@@ -103,14 +112,16 @@ fn place(place: &DepthPlace) -> String {
 }
 
 /// The table of stations, all of it: whoever asks for stations wants them.
-pub(super) fn stations(page: &mut Page<'_>, rows: &[StationRow], pads: Option<PadRow>, volumes: Option<&Volumes>) {
-    page.section(&format!("Stations (volumes in {}³; running net: cut − fill from the beginning of the line)", page.unit));
+pub(super) fn stations(page: &mut Page, rows: &[StationRow], pads: Option<PadRow>, volumes: Option<&Volumes>) {
+    let unit = page.unit_of_volume();
+    page.section(&format!("Stations (volumes in {unit}; running net: cut − fill from the beginning of the line)"));
     let compacted = rows.iter().any(|row| row.net_cumulative_compacted.is_some());
     let sections = rows.iter().any(|row| row.sections.is_some());
-    let mut groups = vec![Group::new("", &["from", "to"]), Group::new("exact", &["cut", "fill"])];
-    groups.push(Group::new("running net", if compacted { &["in bank", "compacted"] } else { &[""] }));
+    let group = |title, names: &[&'static str]| Group::numbers(title, names, LEAST_COLUMN);
+    let mut groups = vec![group("", &["from", "to"]), group("exact", &["cut", "fill"])];
+    groups.push(group("running net", if compacted { &["in bank", "compacted"] } else { &[""] }));
     if sections {
-        groups.extend([Group::new("average end area", &["cut", "fill"]), Group::new("prismoidal", &["cut", "fill"])]);
+        groups.extend([group("average end area", &["cut", "fill"]), group("prismoidal", &["cut", "fill"])]);
     }
     let of = |cut: f64, fill: f64| vec![decimals(cut), decimals(fill)];
     let cells = |row: &StationRow| {
@@ -124,65 +135,26 @@ pub(super) fn stations(page: &mut Page<'_>, rows: &[StationRow], pads: Option<Pa
         }
         cells
     };
-    let mut table: Vec<Vec<String>> = rows.iter().map(cells).collect();
-    let blank = |count: usize| vec![String::new(); count];
-    if let Some(pads) = pads {
-        table.push([blank(2), of(pads.cut, pads.fill)].concat());
-    }
-    if let Some(v) = volumes {
-        let ends = [v.end_area, v.prismoidal].into_iter().flatten().flat_map(|f| of(f.cut, f.fill));
-        table.push([blank(2), of(v.cut, v.fill), blank(if compacted { 2 } else { 1 }), ends.collect()].concat());
-    }
-    let mut column = 0;
-    for group in &mut groups {
-        for width in &mut group.widths {
-            *width = table.iter().filter_map(|cells| cells.get(column)).map(String::len).fold(*width, usize::max);
-            column += 1;
-        }
-        // A title that is wider than its columns widens the first.
-        group.widths[0] += group.title.len().saturating_sub(group.width());
-    }
-    let widths: Vec<usize> = groups.iter().flat_map(|group| group.widths.clone()).collect();
-    let line = |cells: &[String]| {
-        let cells = cells.iter().zip(&widths).map(|(cell, &width)| format!("  {cell:>width$}"));
-        cells.collect::<String>().trim_end().to_owned()
-    };
-    let titles: String = groups.iter().map(|group| format!("  {:>1$}", group.title, group.width())).collect();
-    let names: Vec<String> = groups.iter().flat_map(|group| group.names).map(|name| (*name).to_owned()).collect();
-    let _ = writeln!(page.text, "{}\n{}", titles.trim_end(), line(&names));
+    let mut table = Vec::new();
     // Names are needed only to tell lines apart.
     let many = rows.iter().any(|row| row.chain != rows[0].chain);
     let mut chain = None;
-    for (row, cells) in rows.iter().zip(&table) {
+    for row in rows {
         if many && chain.replace(&row.chain) != Some(&row.chain) {
-            let _ = writeln!(page.text, "  {}", printable(&row.chain));
+            table.push(Row::Heading(printable(&row.chain)));
         }
-        let _ = writeln!(page.text, "{}", line(cells));
+        table.push(Row::Cells(cells(row)));
     }
-    let labels = [pads.map(|_| "no station"), volumes.map(|_| "total")];
-    for (label, cells) in labels.into_iter().flatten().zip(&table[rows.len()..]) {
-        let text = line(cells);
-        let width = groups[0].width();
-        let _ = writeln!(page.text, "  {label:width$}{}", text.get(width + 2..).unwrap_or_default());
+    let blank = |count: usize| vec![String::new(); count];
+    if let Some(pads) = pads {
+        table.push(Row::Labelled("no station", [blank(2), of(pads.cut, pads.fill)].concat()));
     }
-}
-
-/// Columns of a table that belong together.
-struct Group {
-    title: &'static str,
-    names: &'static [&'static str],
-    widths: Vec<usize>,
-}
-
-impl Group {
-    fn new(title: &'static str, names: &'static [&'static str]) -> Self {
-        Self { title, names, widths: names.iter().map(|name| name.len().max(LEAST_COLUMN)).collect() }
+    if let Some(v) = volumes {
+        let ends = [v.end_area, v.prismoidal].into_iter().flatten().flat_map(|f| of(f.cut, f.fill));
+        let cells = [blank(2), of(v.cut, v.fill), blank(if compacted { 2 } else { 1 }), ends.collect()].concat();
+        table.push(Row::Labelled("total", cells));
     }
-
-    /// Width with the gaps between the columns.
-    fn width(&self) -> usize {
-        self.widths.iter().sum::<usize>() + 2 * (self.widths.len() - 1)
-    }
+    page.table(groups, table);
 }
 
 /// Least width of a column of a table.
