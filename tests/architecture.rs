@@ -26,7 +26,7 @@ const ORDER: [&str; 18] = [
 ];
 
 /// Packages that stay at the edge, with the modules that may name them.
-const EDGE: [(&str, &[&str]); 10] = [
+const EDGE: [(&str, &[&str]); 11] = [
     ("anyhow", &["cli", "main"]),
     ("clap", &["cli", "main"]),
     ("indicatif", &["cli"]),
@@ -36,6 +36,7 @@ const EDGE: [(&str, &[&str]); 10] = [
     ("spade", &["mesh", "terrain"]),
     ("tobj", &["read"]),
     ("tempfile", &["write"]),
+    ("maud", &["report"]),
     ("quick_xml", &["read"]),
 ];
 

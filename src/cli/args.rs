@@ -112,7 +112,7 @@ pub(super) struct BuildArgs {
     /// the working folder]
     #[arg(short, long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) output: Vec<OsString>,
-    /// Write the report; .json, .txt or .md, may be repeated [default: as text to standard output]
+    /// Write the report; .json, .txt, .md or .html, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
     /// Write slope stakes for every --stations and side: hinge, catch point, distances, slope; .csv, may be repeated
@@ -215,7 +215,7 @@ pub(super) struct VolumeArgs {
     #[arg(long, value_name = "UNIT", help_heading = help::INPUT)]
     pub(super) units: Option<String>,
 
-    /// Write the report; .json, .txt or .md, may be repeated [default: as text to standard output]
+    /// Write the report; .json, .txt, .md or .html, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
 

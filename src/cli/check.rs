@@ -48,7 +48,7 @@ pub(super) struct CheckArgs {
     /// Places told of each kind of finding
     #[arg(long, value_name = "N", default_value = "3", allow_negative_numbers = true, help_heading = help::OUTPUT)]
     pub(super) places: String,
-    /// Write the report; .json, .txt or .md, may be repeated [default: as text to standard output]
+    /// Write the report; .json, .txt, .md or .html, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
 

@@ -184,15 +184,15 @@ impl Checks {
         plots
     }
 
-    /// Stations of cross-sections, ascending.
-    fn sections(&mut self, args: &BuildArgs, plots: &[(Target, Drawing)]) -> Vec<f64> {
+    /// Stations of cross-sections, ascending; `drawn`: whether an output has any.
+    fn sections(&mut self, args: &BuildArgs, drawn: bool) -> Vec<f64> {
         let mut stations: Vec<f64> =
             args.section.iter().filter_map(|text| self.number("--section", Some(text), Rule::Coordinate)).collect();
         stations.sort_by(f64::total_cmp);
         stations.dedup();
-        if !args.section.is_empty() && !plots.iter().any(|(_, drawing)| *drawing == Drawing::Sections) {
+        if !args.section.is_empty() && !drawn {
             let given = args.section.join(",");
-            let help = "ask for a drawing of them, such as `--plot sections.svg`";
+            let help = "ask for a drawing of them, such as `--plot sections.svg`, or for `--report report.html`";
             self.0.push(format!("`--section` says where cross-sections are drawn\n  --> --section {given}\n   = help: {help}"));
         }
         stations
@@ -307,7 +307,6 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         checks.format(ending(target, "table of slope stakes", &["csv"], "`.csv`"));
     }
     let plots = checks.plots(args);
-    let sections = checks.sections(args, &plots);
     let station_tables = targets(&args.station_table);
     for target in &station_tables {
         checks.format(ending(target, "table", &["csv"], "`.csv`"));
@@ -318,6 +317,8 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         let format = checks.format(ReportFormat::of(&target));
         reports.extend(format.map(|format| (target, format)));
     }
+    let drawn = plots.iter().any(|(_, d)| *d == Drawing::Sections) || reports.iter().any(|(_, format)| format.draws());
+    let sections = checks.sections(args, drawn);
     let used = meshes
         .iter()
         .chain(&finished)

@@ -45,7 +45,7 @@ pub struct BuildJob {
     pub stakes: Vec<Target>,
     /// Where drawings go.
     pub plots: Vec<(Target, Drawing)>,
-    /// Stations of the cross-sections to be drawn; none: all of `stations`.
+    /// Stations of the cross-sections to be drawn; none: all of `stations`, in a report some.
     pub sections: Vec<f64>,
     /// Where tables of the stations go, as CSV; needs stations.
     pub station_tables: Vec<Target>,
@@ -145,9 +145,9 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
                 Target::Stdout => Ok(()),
             },
             Content::Stakes => write_stakes(out, &stakes),
-            Content::Plot(drawing) => Ok(out.write_all(plot::file(&scene, drawing, &job.sections).as_bytes())?),
             Content::Stations => write_station_table(out, report),
-            Content::Report(format) => format.write(out, report),
+            Content::Plot(drawing) => Ok(out.write_all(plot::file(&scene, drawing, &job.sections).as_bytes())?),
+            Content::Report(format) => format.write(out, report, &scene, &job.sections),
         })
     };
     for index in in_order(&targets, &contents) {
@@ -223,7 +223,8 @@ impl Survey {
 impl BuildJob {
     /// Whether an output needs ground and pieces of the works, beyond meshes, line work and figures.
     pub(super) fn draws(&self) -> bool {
-        !self.stakes.is_empty() || !self.plots.is_empty() || has_colours(self)
+        let pages = self.reports.iter().any(|(_, format)| format.draws());
+        !self.stakes.is_empty() || !self.plots.is_empty() || pages || has_colours(self)
     }
 }
 

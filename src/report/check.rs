@@ -2,12 +2,14 @@
 
 mod figures;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 mod text;
 
 pub use figures::*;
+pub(super) use text::{percent, place, share, verdict};
 pub use text::{render_check, render_check_markdown};
 
+use super::html::write_check_html;
 use super::json::write_json;
 use super::{Input, ReportFormat, Tool, Units, Warning};
 use crate::mesh::quality::{self, ANGLE_BINS, LoopKind, Quality};
@@ -175,6 +177,7 @@ impl ReportFormat {
         match self {
             Self::Json => write_json(out, report),
             Self::Text => Ok(out.write_all(render_check(report).as_bytes())?),
+            Self::Html => write_check_html(out, report),
             Self::Markdown => Ok(out.write_all(render_check_markdown(report).as_bytes())?),
         }
     }

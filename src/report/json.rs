@@ -11,13 +11,22 @@ use std::io::Write;
 /// [`EncodeError::ReportNotFinite`] names the first figure that is NaN or infinite, and nothing is written;
 /// [`EncodeError::Report`] from the sink.
 pub fn write_json(out: &mut (impl Write + ?Sized), report: &impl Serialize) -> Result<(), EncodeError> {
-    // JSON has no NaN: serde_json turns it into null. No key of a report is ever null on purpose.
-    if let Some(path) = first_null(&serde_json::to_value(report)?, "") {
-        return Err(EncodeError::ReportNotFinite(path));
-    }
+    all_finite(report)?;
     serde_json::to_writer_pretty(&mut *out, report)?;
     writeln!(out)?;
     Ok(())
+}
+
+/// Refuses reports with a figure that is NaN or infinite.
+///
+/// # Errors
+/// [`EncodeError::ReportNotFinite`] names the first.
+pub(super) fn all_finite(report: &impl Serialize) -> Result<(), EncodeError> {
+    // JSON has no NaN: serde_json turns it into null. No key of a report is ever null on purpose.
+    match first_null(&serde_json::to_value(report)?, "") {
+        Some(path) => Err(EncodeError::ReportNotFinite(path)),
+        None => Ok(()),
+    }
 }
 
 /// Dotted path of the first null, such as `line.buried[2].depth`; `path` leads to `value`.

@@ -1,8 +1,10 @@
-//! What a run has to tell: as data ([`Report`]), as JSON for machines, as text and Markdown for people, its rows as tables.
+//! What a run has to tell: as data ([`Report`]), as JSON for machines, as text, Markdown and as a page for people, its rows as
+//! tables.
 
 pub mod between;
 pub mod check;
 pub mod ground;
+pub mod html;
 pub mod json;
 pub mod model;
 mod page;
@@ -28,6 +30,7 @@ pub use volumes::{
     Balance, BulkingFigures, CutFillFigures, DepthPlace, Depths, METHOD, METHOD_TEXT, Reference, SIGN_RULE, VolumeParts, Volumes,
 };
 
+use crate::plot::Scene;
 use crate::write::{EncodeError, Target, UnknownFormat, ending};
 use std::io::Write;
 
@@ -40,6 +43,8 @@ pub enum ReportFormat {
     Text,
     /// The same for those who publish it.
     Markdown,
+    /// For people with a browser: one page with drawings, that needs nothing else.
+    Html,
 }
 
 impl ReportFormat {
@@ -54,32 +59,46 @@ impl ReportFormat {
             Some("json") => Ok(Self::Json),
             Some("txt") => Ok(Self::Text),
             Some("md" | "markdown") => Ok(Self::Markdown),
+            Some("html" | "htm") => Ok(Self::Html),
             _ if target.is_stream() => Ok(Self::Text),
-            _ => Err(UnknownFormat { what: "report", path: path.clone(), known: "`.json`, `.txt` or `.md`" }),
+            _ => Err(UnknownFormat { what: "report", path: path.clone(), known: "`.json`, `.txt`, `.md` or `.html`" }),
         }
     }
 
-    /// Writes a report in this format.
+    /// Whether it shows the scene, not only figures.
+    pub fn draws(self) -> bool {
+        self == Self::Html
+    }
+
+    /// Writes a report in this format; the page draws `scene`, with cross-sections at `sections` or, without any, where it sees fit.
     ///
     /// # Errors
-    /// As [`write_json`] and [`write_text`].
-    pub fn write(self, out: &mut (impl Write + ?Sized), report: &Report) -> Result<(), EncodeError> {
+    /// As [`write_json`], [`write_text`] and [`html::write_html`].
+    pub fn write(
+        self,
+        out: &mut (impl Write + ?Sized),
+        report: &Report,
+        scene: &Scene<'_>,
+        sections: &[f64],
+    ) -> Result<(), EncodeError> {
         match self {
             Self::Json => write_json(out, report),
             Self::Text => write_text(out, report),
             Self::Markdown => write_markdown(out, report),
+            Self::Html => html::write_html(out, report, scene, sections),
         }
     }
 
     /// Writes the report of a comparison in this format.
     ///
     /// # Errors
-    /// As [`write_json`] and [`write_between`].
+    /// As [`write_json`], [`write_between`] and [`html::write_between_html`].
     pub fn write_between(self, out: &mut (impl Write + ?Sized), report: &BetweenReport) -> Result<(), EncodeError> {
         match self {
             Self::Json => write_json(out, report),
             Self::Text => write_between(out, report),
             Self::Markdown => write_between_markdown(out, report),
+            Self::Html => html::write_between_html(out, report),
         }
     }
 }
@@ -93,11 +112,13 @@ mod tests {
         let of = |name: &str| ReportFormat::of(&Target::File(name.into()));
         assert_eq!(of("r.JSON"), Ok(ReportFormat::Json));
         assert_eq!(of("r.txt"), Ok(ReportFormat::Text));
+        assert_eq!(of("r.Html"), Ok(ReportFormat::Html));
         assert_eq!(of("r.Md"), Ok(ReportFormat::Markdown));
         assert_eq!(ReportFormat::of(&Target::Stdout), Ok(ReportFormat::Text));
         assert_eq!(
             of("r.pdf").unwrap_err().to_string(),
-            "no format is known for the ending `.pdf`\n  --> r.pdf\n   = help: end the name of a report in `.json`, `.txt` or `.md`"
+            "no format is known for the ending `.pdf`\n  --> r.pdf\n   = help: end the name of a report in `.json`, `.txt`, `.md` or \
+             `.html`"
         );
     }
 

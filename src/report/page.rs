@@ -12,7 +12,16 @@ pub(super) const NAME: usize = 20;
 pub(super) const NUMBER: usize = 16;
 
 /// What the figures of every report are, and are not.
-const NOTE: &str = "Geometric quantities computed from the inputs named below; not a survey certificate.";
+pub(super) const NOTE: &str = "Geometric quantities computed from the inputs named below; not a survey certificate.";
+
+/// How long the unit of length is; of metres there is nothing to say.
+pub(super) fn in_metres(units: &Units) -> Option<String> {
+    match units.length {
+        "m" => None,
+        "us-ft" => Some("1 us-ft = 1200/3937 m (US survey foot)".to_owned()),
+        length => Some(format!("1 {length} = {} m", units.metres)),
+    }
+}
 
 /// A report for people.
 pub(super) struct Page {
@@ -97,13 +106,9 @@ impl Column {
 impl Page {
     /// A page without sections. `about` is what the report is of; `volumes` whether there are any in it.
     pub(super) fn new(tool: &super::Tool, about: &str, units: &Units, volumes: bool) -> Self {
-        let Units { length, metres, area, volume } = units;
+        let Units { length, area, volume, .. } = units;
         let volumes = if volumes { format!(", volumes in {volume}") } else { String::new() };
-        let metres = match *length {
-            "m" => String::new(),
-            "us-ft" => "; 1 us-ft = 1200/3937 m (US survey foot)".to_owned(),
-            _ => format!("; 1 {length} = {metres} m"),
-        };
+        let metres = in_metres(units).map_or_else(String::new, |metres| format!("; {metres}"));
         Self {
             title: format!("{} {}: {about}", tool.name, tool.version),
             lead: vec![format!("Lengths in {length}, areas in {area}{volumes}{metres}"), NOTE.to_owned()],

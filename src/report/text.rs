@@ -3,6 +3,7 @@
 mod between;
 mod ground;
 
+pub(super) use between::ROUNDED;
 pub use between::{write_between, write_between_markdown};
 
 use super::page::{Column, Group, Page, Row, printable};
@@ -179,13 +180,13 @@ fn forms(slope: SlopeFigures) -> String {
 }
 
 /// A deviation in degrees. What is only rounding has no digits worth printing, and they differ between machines.
-fn angle(degrees: f64) -> String {
+pub(super) fn angle(degrees: f64) -> String {
     const ROUNDING: f64 = 1e-7;
     if degrees > 0.0 && degrees < ROUNDING { format!("< {ROUNDING:e}") } else { short(degrees) }
 }
 
 /// A small figure: four decimals, or its order of magnitude.
-fn short(value: f64) -> String {
+pub(super) fn short(value: f64) -> String {
     /// Smaller ones are written with an exponent.
     const PLAIN: f64 = 1e-4;
     if value == 0.0 {

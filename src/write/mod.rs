@@ -34,6 +34,9 @@ pub use ply::write_ply;
 pub use points::write_points;
 pub use raster::{Anchor, GridLayout, write_raster};
 pub use single::ROUNDING;
+pub(crate) use single::bytes as single_precision;
+#[cfg(test)]
+pub(crate) use single::value as from_single_precision;
 pub use stakes::{STAKE_COLUMNS, write_stakes};
 pub use stl::write_stl;
 

@@ -9,13 +9,13 @@ pub const ROUNDING: f64 = 1.0 / 16_777_216.0;
 ///
 /// # Errors
 /// [`EncodeError::BeyondSingle`] where there is none, at 3.4 · 10³⁸ and beyond.
-pub(super) fn bytes(value: f64, index: usize) -> Result<[u8; 4], EncodeError> {
+pub(crate) fn bytes(value: f64, index: usize) -> Result<[u8; 4], EncodeError> {
     let near = value as f32;
     if near.is_finite() { Ok(near.to_le_bytes()) } else { Err(EncodeError::BeyondSingle { index, value }) }
 }
 
 /// The number that four bytes made by [`bytes`] stand for.
-pub(super) fn value(bytes: [u8; 4]) -> f64 {
+pub(crate) fn value(bytes: [u8; 4]) -> f64 {
     f64::from(f32::from_le_bytes(bytes))
 }
 

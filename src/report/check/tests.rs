@@ -4,7 +4,7 @@ use crate::model::Slope;
 use std::collections::BTreeMap;
 
 /// Two slopes of 1V:2H over a level floor, one of which has a corner lifted; a triangle above, one twice, one upright.
-fn report() -> CheckReport {
+pub(in crate::report) fn report() -> CheckReport {
     let corners = [
         (0.0, 0.0, 1.0),
         (10.0, 0.0, 1.0),

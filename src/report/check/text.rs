@@ -68,7 +68,7 @@ fn page(report: &CheckReport) -> Page {
     page
 }
 
-fn verdict(report: &CheckReport) -> String {
+pub(in crate::report) fn verdict(report: &CheckReport) -> String {
     let v = &report.verdict;
     let sound = if v.sound { "the surface is sound" } else { "the surface is not sound" };
     let kept = match v.slope_kept {
@@ -90,7 +90,7 @@ fn finding(page: &mut Page, f: &FindingFigures) {
     page.remark(&format!("{least}{} {} [{}]", f.count, f.message, f.code), below);
 }
 
-fn place(p: &PlaceFigures) -> String {
+pub(in crate::report) fn place(p: &PlaceFigures) -> String {
     let [x, y, z] = p.at;
     let mut text = format!("at ({x:.3}, {y:.3}, {z:.3})");
     for (name, names, numbers) in [("triangle", "triangles", &p.triangles), ("vertex", "vertices", &p.vertices)] {
@@ -190,12 +190,12 @@ fn bound(page: &mut Page, b: &BoundFigures) {
     }
 }
 
-fn share(s: &ShareFigures) -> String {
+pub(in crate::report) fn share(s: &ShareFigures) -> String {
     format!("{} of the area ({:.2}, {})", percent(s.share), s.area, count(s.triangles, "triangle", "triangles"))
 }
 
 /// A share in percent. What is not all does not read as all, what is something not as nothing.
-fn percent(share: f64) -> String {
+pub(in crate::report) fn percent(share: f64) -> String {
     let text = format!("{:.2} %", 100.0 * share);
     match text.as_str() {
         "0.00 %" if share > 0.0 => "< 0.01 %".to_owned(),

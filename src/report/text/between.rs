@@ -6,7 +6,7 @@ use crate::write::EncodeError;
 use std::io::Write;
 
 /// Volumes below this are printed as nought.
-const ROUNDED: f64 = 0.005;
+pub(in crate::report) const ROUNDED: f64 = 0.005;
 
 /// Writes the report of a comparison as plain text, UTF-8. The same report gives the same bytes; times are not in it.
 ///
