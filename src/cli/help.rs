@@ -54,6 +54,8 @@ Examples:
       cutting along a road, 20 wide on either side
   slopegen build job.toml --slope 1:2
       options from a file of lines such as `slope = '1:1.5'`; those of the command line win
+  slopegen build road.geojson --width 7 --terrain ground.obj --slope 1:1.5 --stations 20 --plot plan.svg --plot sections.svg
+      drawings: a plan with cut and fill, and cross-sections every 20
   cat road.geojson | slopegen build - --input-format geojson --slope 1:1.5 -o - > road.obj
 
 1:1.5 is one vertical to 1.5 horizontal. 1:0.5 could be read either way and is refused: write 1V:0.5H or 1H:0.5V.";
