@@ -93,7 +93,7 @@ pub(super) struct BuildArgs {
     /// Take volumes against the plane at elevation Z [default: where the slopes end]; not with --terrain
     #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = help::SURFACE)]
     pub(super) reference: Option<String>,
-    /// Existing ground: .obj, .ply, .xml (LandXML), .csv, .xyz, .txt or .asc; slopes then end where they meet it
+    /// Existing ground: .obj, .ply, .xml (LandXML), .csv, .xyz, .txt, .asc, .tif, .las or .laz; slopes then end where they meet it
     #[arg(long, value_name = "FILE", help_heading = help::INPUT)]
     pub(super) terrain: Option<PathBuf>,
     /// Columns of a ground of points without a header, such as xyz or pnezd
@@ -129,10 +129,13 @@ pub(super) struct BuildArgs {
     #[arg(long, help_heading = help::SURFACE)]
     pub(super) strict: bool,
 
-    /// Write the mesh: .obj, .ply, .xml (LandXML), .dxf, .stl or .glb; may be repeated [default: the input's name with .obj, in
+    /// Write the mesh: .obj, .ply, .xml (LandXML), .dxf, .stl, .glb, or a raster, .tif or .asc; may be repeated [default: the input's name with .obj, in
     /// the working folder]
     #[arg(short, long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) output: Vec<OsString>,
+    /// Side of the cells of rasters; heights are those of the mesh at their centres
+    #[arg(long, value_name = "C", allow_negative_numbers = true, help_heading = help::OUTPUT)]
+    pub(super) cell: Option<String>,
     /// Write the report; .json, .txt, .md or .html, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
@@ -184,7 +187,7 @@ pub(super) struct SampleArgs {
     /// Columns of POINTS without a header, such as xy or pen
     #[arg(long, value_name = "ORDER", requires = "at", conflicts_with = "raster", help_heading = help::PLACES)]
     pub(super) at_order: Option<String>,
-    /// Heights at the nodes of a grid, written as an ESRI ASCII raster (.asc); - is standard output
+    /// Heights at the nodes of a grid, written as a raster, .tif or .asc; - is standard output, .asc
     #[arg(long, value_name = "FILE", requires = "cell", conflicts_with = "output", help_heading = help::PLACES)]
     pub(super) raster: Option<OsString>,
     /// Distance of the nodes of the grid
@@ -211,7 +214,7 @@ pub(super) struct SampleArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct VolumeArgs {
-    /// The surface after the works: .obj, .ply, .xml (LandXML), .asc, or points as .csv, .txt, .xyz; with --to-elevation the surface before
+    /// The surface after the works: .obj, .ply, .xml (LandXML), .asc, .tif, or points as .las, .laz, .csv, .txt, .xyz; with --to-elevation the surface before
     #[arg(value_name = "DESIGN")]
     pub(super) design: PathBuf,
     /// The surface before the works, in any of these formats
@@ -235,6 +238,9 @@ pub(super) struct VolumeArgs {
     /// Unit of the figures, and of files that declare none: m, ft (0.3048 m) or us-ft (1200/3937 m) [default: that of the first file, else m]
     #[arg(long, value_name = "UNIT", help_heading = help::INPUT)]
     pub(super) units: Option<String>,
+    /// Points of these classes of LAS and LAZ files are the surface, such as 2 or 2,8 [default: 2]
+    #[arg(long, value_name = "N", value_delimiter = ',', help_heading = help::INPUT)]
+    pub(super) class: Vec<u8>,
 
     /// Write the report; .json, .txt, .md or .html, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]

@@ -164,7 +164,8 @@ pub(in crate::read) fn only_by_content(label: &str, bytes: &[u8]) -> Result<Inpu
         Looks::Like(format) => Ok(format),
         Looks::Other(found, help) => Err(refuse(what, label, format!("its content looks like {found}"), help)),
         Looks::Unknown => {
-            let help = "give OBJ (.obj), PLY (.ply), points as text (.csv, .txt, .xyz), or ESRI ASCII grid (.asc)";
+            let help = "give OBJ (.obj), PLY (.ply), GeoTIFF (.tif), LAS (.las, .laz), points as text (.csv, .txt, .xyz), or ESRI ASCII \
+                        grid (.asc)";
             Err(refuse(what, label, format!("it begins with `{}`", clip(bytes)), help))
         }
     }
