@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
-const CASES: [&str; 6] = ["ply", "obj", "asc", "csv", "xyz", "xml"];
+const CASES: [&str; 7] = ["ply", "obj", "dxf", "asc", "csv", "xyz", "xml"];
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
@@ -95,6 +95,17 @@ fn write(case: &str, count: usize, path: &Path) {
                 let _ = writeln!(text, "<F>{} {} {}</F>", a + 1, b + 1, c + 1);
             }
             text.push_str("</Faces></Definition></Surface></Surfaces></LandXML>\n");
+        }
+        "dxf" => {
+            text.push_str("  0\nSECTION\n  2\nENTITIES\n");
+            for [a, b, c] in triangles {
+                text.push_str("  0\n3DFACE\n  8\nDGM\n");
+                for (i, v) in [a, b, c, c].into_iter().enumerate() {
+                    let [x, y, z] = points[v];
+                    let _ = write!(text, " 1{i}\n{x:.4}\n 2{i}\n{y:.4}\n 3{i}\n{z:.4}\n");
+                }
+            }
+            text.push_str("  0\nENDSEC\n  0\nEOF\n");
         }
         "asc" => {
             let _ = write!(text, "ncols {n}\nnrows {n}\nxllcorner 500000\nyllcorner 5400000\ncellsize 2\n");

@@ -323,6 +323,7 @@ fn refusals_are_pinned() {
         "esri.json",
         "lonlat.geojson",
         "lonlat_wide.geojson",
+        "track.gpx",
         "missing.csv",
         "README.md",
     ];

@@ -8,6 +8,7 @@ mod decode;
 mod dxf;
 mod error;
 mod geojson;
+mod gpx;
 mod landxml;
 mod number;
 mod pick;
@@ -254,7 +255,7 @@ pub fn parse_line(label: &str, bytes: &[u8], options: &ReadOptions) -> Result<Ra
         }
         InputFormat::LandXml => landxml::lines(bytes, &mut source, options, &mut notes)?,
         InputFormat::Dxf => dxf::lines(bytes, &mut source, options, &mut notes)?,
-        InputFormat::Gpx => return Err(gpx(label)),
+        InputFormat::Gpx => return Err(gpx::refuse(label, bytes)),
         InputFormat::Obj | InputFormat::Ply | InputFormat::Asc | InputFormat::GeoTiff | InputFormat::Las => {
             return Err(no_line(label, format));
         }
@@ -263,19 +264,6 @@ pub fn parse_line(label: &str, bytes: &[u8], options: &ReadOptions) -> Result<Ra
         lines = options.pick.named(label, lines)?;
     }
     Ok(RawInput { source, lines, notes })
-}
-
-/// A track of a GPS receiver is no survey: degrees, and heights off by metres.
-fn gpx(label: &str) -> ReadError {
-    ReadError::Content {
-        what: "a GPS track is no survey: its positions are degrees, its heights good to metres at best".into(),
-        at: label.to_owned(),
-        figures: "format: gpx".into(),
-        help: format!(
-            "survey the line; for a sketch project it first, e.g. `ogr2ogr -f GeoJSON -t_srs EPSG:25832 line.geojson {label} \
-             tracks`, with the EPSG code of your grid"
-        ),
-    }
 }
 
 fn no_line(label: &str, format: InputFormat) -> ReadError {

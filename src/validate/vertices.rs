@@ -86,6 +86,9 @@ fn no_elevation_at_all(raw: &RawInput, defects: &mut Defects) -> bool {
 fn no_elevation_help(format: InputFormat) -> &'static str {
     match format {
         InputFormat::GeoJson => "give every vertex as [x, y, z]; drape the line on a terrain first if it has no heights",
+        InputFormat::Dxf => {
+            "give the polyline an elevation, or make it a 3D polyline with the heights of its vertices; a plane one at 0 has none"
+        }
         _ => "fill in the elevation, or take the row out",
     }
 }

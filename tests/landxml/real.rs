@@ -105,3 +105,32 @@ fn other_lines() {
     assert!(message.contains("no elevations"), "{message}");
     assert!(lines(&folder.join("landfill_S4.xml"), None).unwrap_err().contains("holds no line"));
 }
+
+/// Centre lines of the two roads as another program has stroked them into the breaklines of its surfaces (code D121): their
+/// points lie on our alignments, in plan and in height. This tries arcs, circular vertical curves and stations on figures that
+/// are not ours.
+#[test]
+fn centre_lines_of_another_program() {
+    let Some(folder) = folder() else { return };
+    for (road, breakline) in [("Y10", "54"), ("Y11", "63")] {
+        let vertices = |file: PathBuf, name: Option<&str>| {
+            let pick = Pick { features: name.map(str::to_owned).into_iter().collect(), ..Pick::default() };
+            let raw = read::read_line(&file, &ReadOptions { pick, chord: 1e-4, ..ReadOptions::default() }).unwrap();
+            raw.lines[0].vertices.iter().map(|v| glam::DVec3::new(v.x, v.y, v.z.unwrap())).collect::<Vec<_>>()
+        };
+        let ours = vertices(folder.join(format!("{road}_RS-CL.tg.xml")), None);
+        let theirs =
+            vertices(folder.join(format!("{road}_Highest_Comb_rev2_Highest_combination_of_surface.mm.xml")), Some(breakline));
+        // The ends are where other surfaces meet, between points of theirs.
+        assert!(theirs.len() > 25);
+        for p in &theirs[1..theirs.len() - 1] {
+            let off = ours.windows(2).map(|w| {
+                let d = w[1] - w[0];
+                (*p - w[0] - d * ((*p - w[0]).dot(d) / d.length_squared()).clamp(0.0, 1.0)).length()
+            });
+            let off = off.fold(f64::INFINITY, f64::min);
+            // Half a millimetre in each coordinate.
+            assert!(off < 0.000_5 * 3_f64.sqrt() + 1e-4, "{road} {p}: {off}");
+        }
+    }
+}

@@ -1,20 +1,138 @@
-//! DXF.
+//! AutoCAD DXF: lines and ground, from text and binary files of all releases.
+//!
+//! A drawing is a list of pairs: a group code, which says what the value is, and the value (Autodesk, "DXF Reference"). It is read
+//! through twice where it lies: once for what it holds ([`index::Index`]), then for its entities ([`walk`]), those of blocks as
+//! often as the blocks are inserted. Nothing is kept but what is asked for, and no value is looked at that is not needed.
+
+mod bulge;
+mod chain;
+mod entity;
+mod ground;
+mod index;
+mod layers;
+mod lines;
+mod names;
+mod pairs;
+mod transform;
+mod walk;
+
+pub(super) use pairs::SENTINEL;
 
 use super::terrain::{RawGround, Said, refuse};
-use super::{Pick, RawLine, ReadError, ReadOptions, Source};
-use crate::model::Note;
+use super::{CoordinateKind, Pick, RawLine, ReadError, ReadOptions, Source};
+use crate::model::{LengthUnit, Note};
+use index::Index;
+use layers::Layers;
+use walk::{Passed, Want};
 
-/// Lines of a DXF file.
+/// Lines of a DXF file: polylines with their arcs cut into chords, single LINEs and ARCs joined end to end.
+///
+/// # Errors
+/// The file is damaged; it has no lines that are meant; a layer or a line asked for is not there.
 pub(super) fn lines(
-    _bytes: &[u8],
+    bytes: &[u8],
     source: &mut Source,
-    _options: &ReadOptions,
-    _notes: &mut Vec<Note>,
+    options: &ReadOptions,
+    notes: &mut Vec<Note>,
 ) -> Result<Vec<RawLine>, ReadError> {
-    Err(refuse("DXF is not read", source.label.clone(), "", ""))
+    let label = source.label.clone();
+    check(&label, bytes)?;
+    let mut layers = Layers::new(&options.pick.layers);
+    let index = Index::read(&label, bytes, &mut layers)?;
+    let mut found = lines::Lines::new(&label, options.chord);
+    let passed = walk::walk(&index, &mut layers, Want::Lines, &mut |placed| found.take(placed))?;
+    layers.check(&label)?;
+    let lines = found.finish(&layers, &options.pick.features, notes)?;
+    if lines.is_empty() {
+        let help = "give a drawing with polylines, LINEs or ARCs on layers that are on, or name a layer with `--layer`; convert \
+                    splines and circles to polylines first";
+        return Err(refuse("the drawing has no lines to read", label.as_str(), layers.holdings(), help));
+    }
+    passed.tell(notes);
+    source.unit = unit(&index, notes);
+    source.kind = CoordinateKind::Unknown;
+    Ok(lines)
 }
 
-/// Ground of a DXF file.
-pub(super) fn ground(label: &str, _bytes: &[u8], _pick: &Pick, _notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
-    Err(refuse("DXF is not read", label, "", ""))
+/// Ground of a DXF file: its faces and meshes, or its points if there are none.
+///
+/// # Errors
+/// The file is damaged; it has no faces or points that are meant; a layer asked for is not there.
+pub(super) fn ground(label: &str, bytes: &[u8], pick: &Pick, notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
+    check(label, bytes)?;
+    let mut layers = Layers::new(&pick.layers);
+    let index = Index::read(label, bytes, &mut layers)?;
+    let mut found = ground::Ground::new(label);
+    let passed = walk::walk(&index, &mut layers, Want::Ground, &mut |placed| found.take(placed))?;
+    layers.check(label)?;
+    let Some(ground) = found.finish(notes) else {
+        let help = "give a drawing with 3DFACEs, meshes or POINTs on layers that are on, or name a layer with `--terrain-layer`; \
+                    contours have to be triangulated first";
+        return Err(refuse("the drawing has no ground to read", label, layers.holdings(), help));
+    };
+    passed.tell(notes);
+    let unit = unit(&index, notes);
+    Ok((ground, Said { unit, ..Said::default() }))
+}
+
+/// # Errors
+/// The file is something else by its first bytes.
+fn check(label: &str, bytes: &[u8]) -> Result<(), ReadError> {
+    let help = "give a drawing saved as DXF";
+    if bytes.trim_ascii().is_empty() {
+        return Err(refuse("the file is empty", label, "no drawing in it", help));
+    }
+    if bytes.starts_with(b"AC10") {
+        let help = "save it as DXF (any release), e.g. with `SAVEAS` of the CAD program";
+        return Err(refuse("the file is a DWG drawing", label, "DWG is a format of one maker, and not read", help));
+    }
+    Ok(())
+}
+
+/// The unit `$INSUNITS` stands for. Templates declare millimetres or inches for drawings in metres or feet, so that no other
+/// unit is believed: coordinates are taken as they are, with a note.
+fn unit(index: &Index<'_>, notes: &mut Vec<Note>) -> Option<LengthUnit> {
+    let code = index.units?;
+    match code {
+        0 => None,
+        2 => Some(LengthUnit::Foot),
+        6 => Some(LengthUnit::Metre),
+        21 => Some(LengthUnit::UsSurveyFoot),
+        _ => {
+            let name = match code {
+                1 => "inches".to_owned(),
+                4 => "millimetres".to_owned(),
+                5 => "centimetres".to_owned(),
+                7 => "kilometres".to_owned(),
+                10 => "yards".to_owned(),
+                14 => "decimetres".to_owned(),
+                other => format!("unit {other}"),
+            };
+            let message = format!(
+                "the drawing declares {name} ($INSUNITS {code}), which is often left over from a template; its figures are taken as they are"
+            );
+            notes.push(Note::new("dxf-units", message));
+            None
+        }
+    }
+}
+
+impl Passed {
+    /// Notes on what was passed over.
+    fn tell(&self, notes: &mut Vec<Note>) {
+        if self.hidden > 0 {
+            let entities = names::counted(self.hidden, "entity", "entities");
+            let message =
+                format!("left out {entities} on layers that are off or frozen, or invisible; layers named are read in any state");
+            notes.push(Note::new("dxf-hidden", message));
+        }
+        if !self.kinds.is_empty() {
+            let list = names::listed(self.kinds.iter().map(|(kind, n)| format!("{n} {kind}")));
+            notes.push(Note::new("dxf-ignored", format!("entities of other kinds were passed over: {list}")));
+        }
+        if let Some((count, block)) = &self.missing {
+            let inserts = names::counted(*count, "insert of a block that is", "inserts of blocks that are");
+            notes.push(Note::new("dxf-blocks-missing", format!("passed over {inserts} not in the drawing, such as `{block}`")));
+        }
+    }
 }

@@ -20,7 +20,7 @@ const UNPACK: &str = "unpack it first";
 const FROM_MESH: &str = "export the mesh as OBJ or PLY with double coordinates";
 
 /// First bytes of binary formats that are read.
-const BINARY: [(&[u8], InputFormat); 7] = [
+const BINARY: [(&[u8], InputFormat); 8] = [
     (b"ply\n", InputFormat::Ply),
     (b"ply\r", InputFormat::Ply),
     (b"II*\0", InputFormat::GeoTiff),
@@ -28,6 +28,7 @@ const BINARY: [(&[u8], InputFormat); 7] = [
     (b"II+\0", InputFormat::GeoTiff),
     (b"MM\0+", InputFormat::GeoTiff),
     (b"LASF", InputFormat::Las),
+    (crate::read::dxf::SENTINEL, InputFormat::Dxf),
 ];
 
 /// First bytes of formats that are known but not read.
@@ -134,7 +135,7 @@ pub(super) fn check(label: &str, bytes: &[u8], format: InputFormat) -> Result<()
         return Err(refuse("ground is not read from GeoJSON", label, "format: geojson", help));
     }
     if format == InputFormat::Gpx {
-        return Err(crate::read::gpx(label));
+        return Err(crate::read::gpx::refuse(label, bytes));
     }
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Err(refuse("the ground file is empty", label, format!("{} bytes", bytes.len()), "give a file with ground in it"));
@@ -182,6 +183,7 @@ mod tests {
             (b"NCOLS 4\n", InputFormat::Asc),
             (b"II*\0rest", InputFormat::GeoTiff),
             (b"LASF", InputFormat::Las),
+            (crate::read::dxf::SENTINEL, InputFormat::Dxf),
             (b"<?xml version=\"1.0\"?>\n<LandXML>", InputFormat::LandXml),
             (b"<?xml version=\"1.0\"?>\n<gpx version=\"1.1\">", InputFormat::Gpx),
             (b"  0\nSECTION\n", InputFormat::Dxf),

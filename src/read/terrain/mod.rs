@@ -226,7 +226,7 @@ impl Faces {
         self.ends.push(self.corners.len());
     }
 
-    fn len(&self) -> usize {
+    pub(in crate::read) fn len(&self) -> usize {
         if self.mixed { self.ends.len() } else { self.triangles.len() }
     }
 
