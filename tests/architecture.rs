@@ -37,7 +37,8 @@ const EDGE: [(&str, &[&str]); 11] = [
     ("tobj", &["read"]),
     ("tempfile", &["write"]),
     ("maud", &["report"]),
-    ("quick_xml", &["plot", "read", "write"]),
+    // Beyond `read` in tests only: what is written can be read.
+    ("quick_xml", &["read", "write", "plot"]),
 ];
 
 /// The one file that may turn doubles into single-precision numbers, for formats that hold no others.

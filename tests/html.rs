@@ -481,10 +481,10 @@ fn a_lost_graphics_card_comes_back() {
     browser.open(&pages.url("pad.html"));
     let before = canvas(&mut browser);
     browser.evaluate("window.lose = document.querySelector('#view canvas').getContext('webgl2').getExtension('WEBGL_lose_context'); lose.loseContext()");
-    let state = "new Promise(r => setTimeout(() => r(document.getElementById('view').dataset.state), 300))";
-    assert_eq!(browser.evaluate(state), "lost");
+    let state = "document.getElementById('view').dataset.state";
+    browser.wait_for(state, "lost");
     browser.evaluate("lose.restoreContext()");
-    assert_eq!(browser.evaluate(state), "drawn");
+    browser.wait_for(state, "drawn");
     assert!(canvas(&mut browser) == before, "the picture is another one");
 }
 

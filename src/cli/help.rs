@@ -38,8 +38,8 @@ const AFTER_BUILD: &str = "\
 Examples:
   slopegen build road.geojson --width 7 --terrain ground.obj --cut-slope 1:1 --fill-slope 1:1.5 --finished finished.obj
       cuttings and embankments of a road on existing ground: the works, volumes, and the whole ground with the works in it
-  slopegen build pad.geojson --slope 1:2 --terrain ground.ply --stations 20 --swell 25% --shrink 10% --report pad.json
-      the same for a building pad, with figures along its edge and the change in volume of the soil
+  slopegen build pad.geojson --slope 1:2 --terrain ground.ply --stations 20 --swell 25% --shrink 10% --report pad.html
+      the same for a building pad, with figures along its edge and the change in volume of the soil, on a page with drawings
   slopegen build pad.geojson --slope 1:2 --terrain ground.obj -o pad.xml -o pad.dxf --finished after.glb
       the design for a rover (LandXML, DXF), the ground after the works for a viewer
   slopegen build road.geojson --slope 1:1.5

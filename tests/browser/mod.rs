@@ -235,6 +235,15 @@ impl Browser {
         answer["result"]["value"].clone()
     }
 
+    /// Waits until an expression has a value.
+    pub(crate) fn wait_for(&mut self, expression: &str, value: &str) {
+        let begun = Instant::now();
+        while self.evaluate(expression) != json!(value) {
+            assert!(begun.elapsed() < PATIENCE, "{expression} is not {value} in time");
+            std::thread::sleep(Duration::from_millis(30));
+        }
+    }
+
     /// Whether pages may run scripts.
     pub(crate) fn scripts(&mut self, on: bool) {
         self.call("Emulation.setScriptExecutionDisabled", json!({ "value": !on }));
