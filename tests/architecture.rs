@@ -37,7 +37,7 @@ const EDGE: [(&str, &[&str]); 11] = [
     ("tobj", &["read"]),
     ("tempfile", &["write"]),
     ("maud", &["report"]),
-    ("quick_xml", &["read"]),
+    ("quick_xml", &["read", "write", "plot"]),
 ];
 
 /// The one file that may turn doubles into single-precision numbers, for formats that hold no others.
