@@ -230,7 +230,7 @@ fn usage() {
         "build road.geojson --slope 1:2 -o .",
         "build road.geojson --slope 1:2 --report r.pdf",
         "build - --slope 1:2",
-        "build road.dxf --slope 1:2",
+        "build road.dwg --slope 1:2",
         "sample road.geojson --slope 1:2",
         "sample road.geojson --slope 1:2 --raster a.asc",
         "sample road.geojson --slope 1:2 --raster a.png --cell 1",
