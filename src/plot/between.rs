@@ -38,7 +38,7 @@ impl Between {
         let ends = |line: &[DVec2]| line.first().zip(line.last()).map(|(a, b)| (a.x, b.x));
         let Some((d, g)) = ends(design).zip(ends(ground)) else { return };
         let (from, to) = (from.max(d.0).max(g.0), to.min(d.1).min(g.1));
-        if !(to > from) {
+        if to <= from || to.is_nan() || from.is_nan() {
             return;
         }
         let (mut cut, mut fill) = (Sum::default(), Sum::default());

@@ -36,7 +36,8 @@ fn simpler(stroke: &Stroke, tolerance: f64) -> Option<Stroke> {
     let points = &stroke.points;
     let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     let (lo, hi) = points.iter().fold(empty, |(lo, hi), p| (lo.min(*p), hi.max(*p)));
-    if !((hi - lo).max_element() > tolerance) {
+    let size = (hi - lo).max_element();
+    if size <= tolerance || size.is_nan() {
         return None;
     }
     if !stroke.closed {

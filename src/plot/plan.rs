@@ -135,8 +135,11 @@ fn parts(scene: &Scene<'_>, depths: bool) -> Vec<Block> {
     named.iter().filter(|(part, _, _)| has(*part)).map(block).collect()
 }
 
+/// A level and its lines on the map.
+type Contour = (f64, Vec<lines::Stroke>);
+
 /// Interval and contours of the ground in the map, with their levels.
-fn ground_contours(scene: &Scene<'_>, map: &Map, interval: Option<f64>) -> Option<(f64, Vec<(f64, Vec<lines::Stroke>)>)> {
+fn ground_contours(scene: &Scene<'_>, map: &Map, interval: Option<f64>) -> Option<(f64, Vec<Contour>)> {
     let terrain = scene.ground.as_ref()?.terrain;
     let within = map.local();
     let (low, high) = contours::heights(&terrain.vertices, &terrain.triangles, within)?;
@@ -151,7 +154,7 @@ fn ground_contours(scene: &Scene<'_>, map: &Map, interval: Option<f64>) -> Optio
     }
     let (at, strokes): (Vec<usize>, Vec<lines::Stroke>) = strokes.into_iter().unzip();
     let kept = lines::simplified(&strokes, CONTOUR_POINTS);
-    let mut drawn: Vec<(f64, Vec<lines::Stroke>)> = levels.into_iter().map(|level| (level, Vec::new())).collect();
+    let mut drawn: Vec<Contour> = levels.into_iter().map(|level| (level, Vec::new())).collect();
     for (level, stroke) in at.into_iter().zip(kept) {
         drawn[level].1.extend(stroke);
     }
@@ -163,7 +166,7 @@ fn is_index(level: f64, interval: f64) -> bool {
     (level / interval).round() % 5.0 == 0.0
 }
 
-fn draw_contours(svg: &mut Svg, interval: f64, contours: &[(f64, Vec<lines::Stroke>)]) {
+fn draw_contours(svg: &mut Svg, interval: f64, contours: &[Contour]) {
     for (heavy, class) in [(false, "ln contour"), (true, "ln contour i")] {
         let mut path = super::svg::Path::default();
         for (_, strokes) in contours.iter().filter(|(level, _)| is_index(*level, interval) == heavy) {
@@ -173,14 +176,7 @@ fn draw_contours(svg: &mut Svg, interval: f64, contours: &[(f64, Vec<lines::Stro
     }
 }
 
-fn label_contours(
-    svg: &mut Svg,
-    map: &Map,
-    interval: f64,
-    contours: &[(f64, Vec<lines::Stroke>)],
-    design: &Drape<'_>,
-    labels: &mut Labels,
-) {
+fn label_contours(svg: &mut Svg, map: &Map, interval: f64, contours: &[Contour], design: &Drape<'_>, labels: &mut Labels) {
     // Below the works contours are not seen.
     let seen = |p: DVec2| design.at(map.to_local(p)).is_none();
     for (level, strokes) in contours.iter().filter(|(level, _)| is_index(*level, interval)) {

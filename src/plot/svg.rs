@@ -34,7 +34,7 @@ impl Svg {
             escaped(desc)
         );
         if style.standalone {
-            let _ = write!(svg.text, "<style>\n{}</style>\n", file_css());
+            let _ = writeln!(svg.text, "<style>\n{}</style>", file_css());
             svg.rect("paper", DVec2::ZERO, size);
         }
         svg
