@@ -26,10 +26,10 @@ impl Svg {
         if style.standalone {
             svg.text.push_str("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
         }
-        let _ = write!(
+        let _ = writeln!(
             svg.text,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" role=\"img\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\"><title>{}</title><desc>{}</desc>\n",
+             viewBox=\"0 0 {width} {height}\"><title>{}</title><desc>{}</desc>",
             escaped(title),
             escaped(desc)
         );
