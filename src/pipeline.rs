@@ -1,26 +1,34 @@
 //! The one place that knows the order: read → check → design → surface → certificate → write. A job says what is wanted; all
 //! that can be refused without the input has been refused before ([`crate::cli`] does it for the command line).
 
+mod batch;
 pub mod build;
 pub mod check;
 pub mod design;
+pub mod diff;
 pub mod error;
 mod figures;
 mod ground;
 mod heads;
+pub mod info;
 mod on_ground;
+mod rasters;
 pub mod sample;
 mod units;
 pub mod volume;
 mod watch;
 
+pub use batch::{Batch, run_batch};
 pub use build::{BuildJob, Built, build};
 pub use check::{CheckJob, Looked, NotPassed, SlopeWish, check};
 pub use design::{DesignError, MOST_LEVELS, Wishes};
+pub use diff::{Beyond, Bounds, DiffError, DiffJob, Differed, Most, diff};
 pub use error::{BuriedError, Error};
 pub use ground::read_ground;
 pub use heads::LocalOrigin;
+pub use info::{info, job_info};
 pub use on_ground::GroundInput;
+pub use rasters::Rasters;
 pub use sample::{Area, Lattice, MOST_NODES, SampleJob, Sampled, Where, lattice, sample};
 pub use volume::{Against, Compared, ComparisonError, VolumeJob, volume};
 pub use watch::{Observer, WRITING};

@@ -1,20 +1,27 @@
 //! Arguments as typed: what the parser can check by itself, and the words of the help.
 
+use super::batch::BatchArgs;
 use super::check::CheckArgs;
+use super::diff::DiffArgs;
+use super::generate::{CompletionsArgs, ManArgs};
 use super::help;
+use super::info::InfoArgs;
 use clap::{ArgAction, ArgGroup, Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// The whole command line, for those who generate from it.
+/// The whole command line, for those who generate from it: with the styles and the long texts of the help.
 pub fn command() -> clap::Command {
-    Arguments::command()
+    help::dressed(Arguments::command())
 }
 
 /// Surfaces of constant slope through a 3D line, for earthworks
 #[derive(Debug, Parser)]
-#[command(name = "slopegen", version, arg_required_else_help = true, after_help = help::AFTER, max_term_width = 110)]
+#[command(name = "slopegen", version, arg_required_else_help = true, max_term_width = 110)]
 pub(super) struct Arguments {
+    /// Colours: on terminals only, always, or never
+    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value = "auto", help_heading = help::RUNNING)]
+    pub(super) color: ColorArg,
     #[command(subcommand)]
     pub(super) command: Command,
 }
@@ -22,17 +29,31 @@ pub(super) struct Arguments {
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Build the surface and write mesh, line work and report
-    #[command(after_help = help::AFTER_BUILD, arg_required_else_help = true)]
+    #[command(arg_required_else_help = true)]
     Build(Box<BuildArgs>),
     /// Exact cut and fill between two surfaces, or a surface and a level
-    #[command(after_help = help::AFTER_VOLUME, arg_required_else_help = true)]
+    #[command(arg_required_else_help = true)]
     Volume(Box<VolumeArgs>),
     /// Exact heights of the surface at points or as a raster
-    #[command(after_help = help::AFTER_SAMPLE, arg_required_else_help = true)]
+    #[command(arg_required_else_help = true)]
     Sample(Box<SampleArgs>),
     /// Look at a mesh from anywhere: soundness, slopes, angles
-    #[command(after_help = help::AFTER_CHECK, arg_required_else_help = true)]
+    #[command(arg_required_else_help = true)]
     Check(Box<CheckArgs>),
+    /// Build many jobs at once, with one summary
+    #[command(arg_required_else_help = true)]
+    Batch(Box<BatchArgs>),
+    /// What differs between two reports, or between two surfaces
+    #[command(arg_required_else_help = true)]
+    Diff(Box<DiffArgs>),
+    /// What a file holds, and what is wrong with it
+    #[command(arg_required_else_help = true)]
+    Info(Box<InfoArgs>),
+    /// Completions for a shell, to standard output
+    #[command(arg_required_else_help = true)]
+    Completions(CompletionsArgs),
+    /// Manual pages
+    Man(ManArgs),
 }
 
 #[derive(Debug, Args)]
@@ -72,7 +93,7 @@ pub(super) struct BuildArgs {
     /// Take volumes against the plane at elevation Z [default: where the slopes end]; not with --terrain
     #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = help::SURFACE)]
     pub(super) reference: Option<String>,
-    /// Existing ground: .obj, .ply, .xml (LandXML), .csv, .xyz, .txt or .asc; slopes then end where they meet it
+    /// Existing ground: .obj, .ply, .xml (LandXML), .csv, .xyz, .txt, .asc, .tif, .las or .laz; slopes then end where they meet it
     #[arg(long, value_name = "FILE", help_heading = help::INPUT)]
     pub(super) terrain: Option<PathBuf>,
     /// Columns of a ground of points without a header, such as xyz or pnezd
@@ -108,10 +129,13 @@ pub(super) struct BuildArgs {
     #[arg(long, help_heading = help::SURFACE)]
     pub(super) strict: bool,
 
-    /// Write the mesh: .obj, .ply, .xml (LandXML), .dxf, .stl or .glb; may be repeated [default: the input's name with .obj, in
+    /// Write the mesh: .obj, .ply, .xml (LandXML), .dxf, .stl, .glb, or a raster, .tif or .asc; may be repeated [default: the input's name with .obj, in
     /// the working folder]
     #[arg(short, long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) output: Vec<OsString>,
+    /// Side of the cells of rasters; heights are those of the mesh at their centres
+    #[arg(long, value_name = "C", allow_negative_numbers = true, help_heading = help::OUTPUT)]
+    pub(super) cell: Option<String>,
     /// Write the report; .json, .txt, .md or .html, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
@@ -163,7 +187,7 @@ pub(super) struct SampleArgs {
     /// Columns of POINTS without a header, such as xy or pen
     #[arg(long, value_name = "ORDER", requires = "at", conflicts_with = "raster", help_heading = help::PLACES)]
     pub(super) at_order: Option<String>,
-    /// Heights at the nodes of a grid, written as an ESRI ASCII raster (.asc); - is standard output
+    /// Heights at the nodes of a grid, written as a raster, .tif or .asc; - is standard output, .asc
     #[arg(long, value_name = "FILE", requires = "cell", conflicts_with = "output", help_heading = help::PLACES)]
     pub(super) raster: Option<OsString>,
     /// Distance of the nodes of the grid
@@ -190,7 +214,7 @@ pub(super) struct SampleArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct VolumeArgs {
-    /// The surface after the works: .obj, .ply, .xml (LandXML), .asc, or points as .csv, .txt, .xyz; with --to-elevation the surface before
+    /// The surface after the works: .obj, .ply, .xml (LandXML), .asc, .tif, or points as .las, .laz, .csv, .txt, .xyz; with --to-elevation the surface before
     #[arg(value_name = "DESIGN")]
     pub(super) design: PathBuf,
     /// The surface before the works, in any of these formats
@@ -214,6 +238,9 @@ pub(super) struct VolumeArgs {
     /// Unit of the figures, and of files that declare none: m, ft (0.3048 m) or us-ft (1200/3937 m) [default: that of the first file, else m]
     #[arg(long, value_name = "UNIT", help_heading = help::INPUT)]
     pub(super) units: Option<String>,
+    /// Points of these classes of LAS and LAZ files are the surface, such as 2 or 2,8 [default: 2]
+    #[arg(long, value_name = "N", value_delimiter = ',', help_heading = help::INPUT)]
+    pub(super) class: Vec<u8>,
 
     /// Write the report; .json, .txt, .md or .html, may be repeated [default: as text to standard output]
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
@@ -225,7 +252,7 @@ pub(super) struct VolumeArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct InputArgs {
-    /// The line: .geojson, .json, .csv, .txt, .tsv, .xyz or LandXML (.xml); - is standard input
+    /// The line: .geojson, .json, .csv, .txt, .tsv, .xyz or LandXML (.xml); - is standard input. For `build` also a job file, .toml
     #[arg(value_name = "INPUT")]
     pub(super) input: PathBuf,
     /// Format of the input [default: by its extension]
@@ -284,6 +311,14 @@ pub(super) struct Running {
     /// Number of threads [default: one for each processor]
     #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = help::RUNNING)]
     pub(super) threads: Option<String>,
+}
+
+/// When there are colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ColorArg {
+    Auto,
+    Always,
+    Never,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -1,17 +1,21 @@
 //! What people see while the program runs: notes, progress, times. All of it on standard error.
 
+mod paint;
+
 use super::args::Running;
 use crate::model::Note;
 use crate::pipeline::{Observer, WRITING};
+use crate::report::ReportFormat;
 use crate::surface::Watch;
-use crate::write::Target;
+use crate::write::{EncodeError, Target};
+use anstream::AutoStream;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal as _, Write as _};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Notes on the result itself rather than on how the input was read.
-const WARNINGS: [&str; 11] = [
+const WARNINGS: [&str; 12] = [
     "buried",
     "line-beyond-end",
     "ground-single-precision",
@@ -23,6 +27,7 @@ const WARNINGS: [&str; 11] = [
     "meshes-swapped",
     "lies-double",
     "single-precision",
+    "units-differ",
 ];
 
 /// Time between two frames of the progress display.
@@ -30,7 +35,51 @@ const FRAME: Duration = Duration::from_millis(100);
 
 /// Writes a line to standard error. Where that is closed, there is nobody to be told.
 fn say(text: &str) {
-    let _ = writeln!(std::io::stderr().lock(), "{text}");
+    let _ = writeln!(AutoStream::auto(std::io::stderr().lock()), "{}", paint::message(text));
+}
+
+/// A report that goes to a terminal with colours, and is written here instead of by the pipeline.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Screen(());
+
+impl Screen {
+    /// Takes the text report out of the outputs of a job, if it goes to a terminal with colours. `all`: every output of the job;
+    /// if another one goes there as well, that is refused as ever.
+    pub(super) fn take(reports: &mut Vec<(Target, ReportFormat)>, all: &[Target]) -> Option<Self> {
+        let is_text = |(target, format): &(Target, ReportFormat)| *target == Target::Stdout && *format == ReportFormat::Text;
+        let alone = all.iter().filter(|target| **target == Target::Stdout).count() == 1;
+        if !alone || !reports.iter().any(is_text) || !has_colours() {
+            return None;
+        }
+        reports.retain(|report| !is_text(report));
+        Some(Self(()))
+    }
+
+    /// Writes the report. A terminal that went away is no error.
+    pub(super) fn show(self, write: impl FnOnce(&mut Vec<u8>) -> Result<(), EncodeError>) -> Result<(), EncodeError> {
+        let mut bytes = Vec::new();
+        write(&mut bytes)?;
+        let _ = write!(std::io::stdout().lock(), "{}", paint::report(&String::from_utf8_lossy(&bytes)));
+        Ok(())
+    }
+}
+
+/// Where reports go.
+pub(super) fn targets(reports: &[(Target, ReportFormat)]) -> Vec<Target> {
+    reports.iter().map(|(target, _)| target.clone()).collect()
+}
+
+/// Whether standard output is a terminal that is to have colours.
+fn has_colours() -> bool {
+    let stdout = std::io::stdout();
+    stdout.is_terminal() && AutoStream::choice(&stdout) != anstream::ColorChoice::Never
+}
+
+pub(super) use paint::{asked, choose};
+
+/// Tells a line of a message, whose names from files cannot harm a terminal.
+pub(super) fn tell(message: &str) {
+    say(&printable(message));
 }
 
 /// Tells why the program failed.
@@ -41,6 +90,11 @@ pub(super) fn error(message: &str) {
 /// Whether what goes to a target is seen at once.
 pub(super) fn is_terminal(target: &Target) -> bool {
     *target == Target::Stdout && std::io::stdout().is_terminal()
+}
+
+/// What a note is called.
+pub(super) fn kind(note: &Note) -> &'static str {
+    if WARNINGS.contains(&note.code) { "warning" } else { "note" }
 }
 
 /// Text that may hold names from files, without characters that would move the cursor or colour a terminal.
@@ -134,8 +188,7 @@ impl Watch for Console {
 impl Observer for Console {
     fn note(&self, note: &Note) {
         if !self.quiet && !self.notes_elsewhere {
-            let kind = if WARNINGS.contains(&note.code) { "warning" } else { "note" };
-            self.say(&printable(&format!("{kind}[{}]: {}", note.code, note.message)));
+            self.say(&printable(&format!("{}[{}]: {}", kind(note), note.code, note.message)));
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::job::UsageErrors;
 use crate::ground::GroundError;
-use crate::pipeline::{Error, NotPassed};
+use crate::pipeline::{Beyond, Error, NotPassed};
 use crate::read::ReadError;
 use crate::surface::SurfaceError;
 use std::process::ExitCode;
@@ -32,7 +32,7 @@ impl Code {
         if error.is::<UsageErrors>() {
             return Self::Usage;
         }
-        if error.is::<NotPassed>() {
+        if error.is::<NotPassed>() || error.is::<Beyond>() {
             return Self::Check;
         }
         match error.downcast_ref::<Error>() {
@@ -54,6 +54,7 @@ impl Code {
                 | Error::Overlay(_)
                 | Error::Stations(_)
                 | Error::NoStation(_)
+                | Error::Diff(_)
                 | Error::Buried(_),
             )
             | None => Self::Work,

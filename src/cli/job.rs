@@ -5,13 +5,13 @@ use super::number::{self, Rule};
 use crate::formation::{Crossfall, Formation};
 use crate::model::{Bulking, Extent, LengthUnit, Sheet, Side, Slope};
 use crate::pipeline::{
-    Against, Area, BuildJob, GroundInput, Lattice, LineInput, LocalOrigin, SampleJob, VolumeJob, Where, Wishes,
+    Against, Area, BuildJob, GroundInput, Lattice, LineInput, LocalOrigin, Rasters, SampleJob, VolumeJob, Where, Wishes,
 };
 use crate::plot::Drawing;
 use crate::read::terrain::TerrainOptions;
 use crate::read::{ColumnOrder, InputFormat, Pick, ReadOptions};
 use crate::report::ReportFormat;
-use crate::write::{LineFormat, MeshFormat, Target, UnknownFormat};
+use crate::write::{LineFormat, MeshFormat, RasterFormat, Target, UnknownFormat};
 use glam::{DVec2, DVec3};
 use std::ffi::{OsStr, OsString};
 use std::fmt;
@@ -44,6 +44,21 @@ impl fmt::Display for UsageErrors {
 
 impl std::error::Error for UsageErrors {}
 
+impl UsageErrors {
+    /// One thing wrong.
+    pub(super) fn one(message: String) -> Self {
+        Self(vec![message])
+    }
+
+    /// Several; at least one.
+    pub(super) fn all(messages: Vec<String>) -> Self {
+        Self(messages)
+    }
+}
+
+/// Outputs of a surface, as meshes and as rasters.
+type Surfaces = (Vec<(Target, MeshFormat)>, Vec<(Target, RasterFormat)>);
+
 /// Gathers what is wrong, so that all of it is told at once.
 #[derive(Default)]
 pub(super) struct Checks(Vec<String>);
@@ -62,7 +77,7 @@ impl Checks {
         self.take(result.map_err(|error| error.to_string()))
     }
 
-    fn order(&mut self, option: &str, text: Option<&String>) -> Option<ColumnOrder> {
+    pub(super) fn order(&mut self, option: &str, text: Option<&String>) -> Option<ColumnOrder> {
         let text = text?;
         let result = text.parse::<ColumnOrder>();
         self.take(result.map_err(|error| match error.split_once("; ") {
@@ -125,7 +140,7 @@ impl Checks {
         LineInput { path: args.input.clone(), options, closed: args.closed, formation, unit, tolerance }
     }
 
-    fn unit(&mut self, text: Option<&String>) -> Option<LengthUnit> {
+    pub(super) fn unit(&mut self, text: Option<&String>) -> Option<LengthUnit> {
         let text = text?;
         self.take(text.parse::<LengthUnit>().map_err(|error| match error.split_once("; ") {
             Some((what, help)) => format!("{what}\n  --> --units {text}\n   = help: {help}"),
@@ -198,6 +213,43 @@ impl Checks {
         stations
     }
 
+    /// Outputs of a surface: meshes, and rasters by the endings of their names.
+    fn surfaces(&mut self, names: &[OsString]) -> Surfaces {
+        let (mut meshes, mut rasters) = (Vec::new(), Vec::new());
+        for target in targets(names) {
+            if RasterFormat::is_named(&target) {
+                let format = self.format(RasterFormat::of(&target));
+                rasters.extend(format.map(|format| (target, format)));
+            } else {
+                let format = self.format(MeshFormat::of(&target));
+                meshes.extend(format.map(|format| (target, format)));
+            }
+        }
+        (meshes, rasters)
+    }
+
+    /// Rasters need cells, and cells rasters.
+    fn rasters(
+        &mut self,
+        args: &BuildArgs,
+        design: Vec<(Target, RasterFormat)>,
+        finished: Vec<(Target, RasterFormat)>,
+    ) -> Rasters {
+        let cell = self.number("--cell", args.cell.as_ref(), Rule::AtLeast(LEAST_LENGTH));
+        match (&args.cell, design.first().or(finished.first())) {
+            (None, Some((target, _))) => self.0.push(format!(
+                "a raster needs the side of its cells\n  --> {target}\n   = help: give it with `--cell`, such as `--cell 0.5`"
+            )),
+            (Some(text), None) if self.0.is_empty() => self.0.push(format!(
+                "there is no raster that cells could be for\n  --> --cell {text}\n   = help: name an output that ends in {}, or leave \
+                 out `--cell`",
+                RasterFormat::KNOWN
+            )),
+            _ => {}
+        }
+        Rasters { cell: cell.unwrap_or(0.0), design, finished }
+    }
+
     /// Refuses options that mean nothing without existing ground.
     fn needs_ground(&mut self, options: &[(&str, Option<&String>)]) {
         for (option, text) in options {
@@ -207,6 +259,19 @@ impl Checks {
                 ));
             }
         }
+    }
+
+    /// Where reports go that are JSON or text: to standard output as text besides, unless quiet.
+    pub(super) fn plain_reports(&mut self, arguments: &[OsString], quiet: bool) -> Vec<(Target, ReportFormat)> {
+        let mut reports = Vec::new();
+        for target in targets(arguments) {
+            self.format(ending(&target, "report", &["json", "txt"], "`.json` or `.txt`"));
+            reports.extend(ReportFormat::of(&target).ok().map(|format| (target, format)));
+        }
+        if !reports.iter().any(|(target, _)| *target == Target::Stdout) && !quiet {
+            reports.push((Target::Stdout, ReportFormat::Text));
+        }
+        reports
     }
 
     pub(super) fn finish<T>(self, job: Option<T>) -> Result<T, UsageErrors> {
@@ -280,11 +345,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     }
 
     let outputs = if args.output.is_empty() { vec![default_output(&args.input.input)] } else { args.output.clone() };
-    let mut meshes = Vec::new();
-    for target in targets(&outputs) {
-        let format = checks.format(MeshFormat::of(&target));
-        meshes.extend(format.map(|format| (target, format)));
-    }
+    let (meshes, design) = checks.surfaces(&outputs);
     if side == Some(Side::Inside) && slopes.len() > 1 {
         checks.0.push(
             "slopes inside a ring need a direction\n  --> --side inside\n   \
@@ -292,11 +353,8 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
                 .to_owned(),
         );
     }
-    let mut finished = Vec::new();
-    for target in targets(&args.finished) {
-        let format = checks.format(MeshFormat::of(&target));
-        finished.extend(format.map(|format| (target, format)));
-    }
+    let (finished, finished_rasters) = checks.surfaces(&args.finished);
+    let rasters = checks.rasters(args, design, finished_rasters);
     let mut lines = Vec::new();
     for target in targets(&args.lines) {
         let format = checks.format(LineFormat::of(&target));
@@ -364,6 +422,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         strict: args.strict,
         meshes,
         finished,
+        rasters,
         lines,
         stakes,
         plots,
@@ -396,12 +455,13 @@ pub(super) fn sample_job(args: &SampleArgs) -> Result<SampleJob, UsageErrors> {
         }
         (None, Some(raster)) => {
             let output = Target::from_arg(raster);
-            checks.format(ending(&output, "raster", &["asc"], "`.asc`"));
+            let format = checks.format(RasterFormat::of(&output));
             let cell = checks.number("--cell", args.cell.as_ref(), Rule::AtLeast(LEAST_LENGTH));
             let area = args.area.as_ref().map(|text| checks.take(area(text)));
-            match (cell, area) {
-                (Some(cell), None) => Some((Where::Raster(Lattice { cell, area: None }), output)),
-                (Some(cell), Some(Some(area))) => Some((Where::Raster(Lattice { cell, area: Some(area) }), output)),
+            // An area that was given and cannot be read leaves no grid.
+            let area = area.map_or(Some(None), |area| area.map(Some));
+            match (cell, area, format) {
+                (Some(cell), Some(area), Some(format)) => Some((Where::Raster(Lattice { cell, area }, format), output)),
                 _ => None,
             }
         }
@@ -437,7 +497,11 @@ pub(super) fn volume_job(args: &VolumeArgs) -> Result<VolumeJob, UsageErrors> {
     let unit = checks.unit(args.units.as_ref());
     // A surface that is brought to a level is the first one given, and the existing one.
     let existing = if args.existing.is_some() { &args.existing_surface } else { &args.surface };
-    let picks = [&args.surface, existing].map(|surface| Pick { surface: surface.clone(), ..Pick::default() });
+    let picks = [&args.surface, existing].map(|surface| Pick {
+        surface: surface.clone(),
+        classes: args.class.clone(),
+        ..Pick::default()
+    });
     checks.finish(against.map(|against| VolumeJob { against, csv_order, picks, unit, within, reports }))
 }
 
@@ -460,7 +524,7 @@ pub(super) fn targets(arguments: &[OsString]) -> Vec<Target> {
 }
 
 /// The input's name with the ending of a mesh, in the working folder.
-fn default_output(input: &Path) -> OsString {
+pub(super) fn default_output(input: &Path) -> OsString {
     let stem = if input == Path::new("-") { None } else { input.file_stem() };
     let mut name = stem.unwrap_or(OsStr::new("slopegen")).to_owned();
     name.push(".obj");

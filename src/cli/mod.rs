@@ -1,96 +1,138 @@
 //! The command line: arguments → checked job → pipeline → messages and exit code.
 
 mod args;
+mod batch;
 mod check;
 mod console;
+mod diff;
 mod exit_code;
+mod generate;
 mod help;
+mod info;
 mod interrupt;
 mod job;
+mod job_file;
 mod number;
 
 pub use args::command;
 
-use crate::pipeline::NotPassed;
+use crate::pipeline::{Error, NotPassed};
+use crate::write::{Target, WriteError};
 use anyhow::Context as _;
-use args::{Arguments, Command, Running};
-use clap::{CommandFactory as _, FromArgMatches as _};
-use console::Console;
+use args::{Command, Running};
+use console::{Console, Screen};
 use exit_code::Code;
+use job_file::Stop;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// Runs the program with its arguments, the first of which is its own name. Results go to files and standard output, all else
 /// to standard error. Returns what the process should exit with.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let parsed = Arguments::command().try_get_matches_from(arguments).and_then(|matches| Arguments::from_arg_matches(&matches));
-    let outcome = match parsed {
-        Ok(arguments) => dispatch(&arguments),
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    console::choose(console::asked(&arguments));
+    let (outcome, file) = match job_file::parse(&arguments) {
+        Ok((arguments, file)) => {
+            console::choose(arguments.color);
+            (dispatch(arguments.command), file)
+        }
+        Err(Stop::File(error)) => (Err(error), None),
         // Help and version go to standard output and are no error; a closed pipe is none either.
-        Err(error) => {
+        Err(Stop::Parser(error)) => {
             let shown = error.print();
             let refused = shown.is_err_and(|cause| cause.kind() != std::io::ErrorKind::BrokenPipe);
             return if refused { Code::Output } else { Code::of_clap(&error) }.into();
         }
     };
     match outcome {
-        Ok(()) => Code::Done.into(),
+        Ok(code) => code.into(),
         Err(error) => {
-            console::error(&format!("{error:#}"));
+            console::error(&file.map_or_else(|| format!("{error:#}"), |file| file.located(&error)));
             Code::of(&error).into()
         }
     }
 }
 
-fn dispatch(arguments: &Arguments) -> anyhow::Result<()> {
-    match &arguments.command {
-        Command::Build(wanted) => {
-            let job = job::build_job(wanted)?;
-            start(&wanted.running)?;
-            let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
-            let console = Console::new(&wanted.running, to_terminal);
-            let built = crate::pipeline::build(&job, &console)?;
-            console.finish();
-            let size = format!("{} vertices, {} triangles", built.report.surface.vertices, built.report.surface.triangles);
-            for target in &built.written {
-                let is_mesh = job.meshes.iter().any(|(mesh, _)| mesh == target);
-                console.wrote(target, if is_mesh { &size } else { "" });
-            }
-        }
-        Command::Check(wanted) => {
-            let job = check::check_job(wanted)?;
-            start(&wanted.running)?;
-            // The report shows the notes on the same terminal.
-            let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
-            let console = Console::new(&wanted.running, to_terminal);
-            let looked = crate::pipeline::check(&job, &console)?;
-            console.finish();
-            looked.written.iter().for_each(|target| console.wrote(target, ""));
-            if let Some(failed) = NotPassed::of(&looked.report) {
-                return Err(failed.into());
-            }
-        }
-        Command::Volume(wanted) => {
-            let job = job::volume_job(wanted)?;
-            start(&wanted.running)?;
-            let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
-            let console = Console::new(&wanted.running, to_terminal);
-            let compared = crate::pipeline::volume(&job, &console)?;
-            console.finish();
-            compared.written.iter().for_each(|target| console.wrote(target, ""));
-        }
-        Command::Sample(wanted) => {
-            let job = job::sample_job(wanted)?;
-            start(&wanted.running)?;
-            let console = Console::new(&wanted.running, false);
-            let sampled = crate::pipeline::sample(&job, &console)?;
-            console.finish();
-            if !job.output.is_stream() {
-                console.wrote(&job.output, &format!("{} heights", sampled.heights));
-            }
-        }
+fn dispatch(command: Command) -> anyhow::Result<Code> {
+    match command {
+        Command::Build(wanted) => build(&wanted),
+        Command::Check(wanted) => check(&wanted),
+        Command::Volume(wanted) => volume(&wanted),
+        Command::Sample(wanted) => sample(&wanted),
+        Command::Batch(wanted) => batch::run(&wanted),
+        Command::Diff(wanted) => diff::run(&wanted),
+        Command::Info(wanted) => info::run(&wanted),
+        Command::Completions(wanted) => Ok(generate::completions(&wanted).map(|()| Code::Done)?),
+        Command::Man(wanted) => generate::man(&wanted).map(|()| Code::Done),
     }
-    Ok(())
+}
+
+fn build(wanted: &args::BuildArgs) -> anyhow::Result<Code> {
+    let mut job = job::build_job(wanted)?;
+    start(&wanted.running)?;
+    let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
+    let all = job.footprint().outputs;
+    let screen = Screen::take(&mut job.reports, &all);
+    let console = Console::new(&wanted.running, to_terminal);
+    let built = crate::pipeline::build(&job, &console)?;
+    console.finish();
+    show(screen, |out| crate::report::write_text(out, &built.report))?;
+    let size = format!("{} vertices, {} triangles", built.report.surface.vertices, built.report.surface.triangles);
+    for target in &built.written {
+        let is_mesh = job.meshes.iter().any(|(mesh, _)| mesh == target);
+        console.wrote(target, if is_mesh { &size } else { "" });
+    }
+    Ok(Code::Done)
+}
+
+fn check(wanted: &check::CheckArgs) -> anyhow::Result<Code> {
+    let mut job = check::check_job(wanted)?;
+    start(&wanted.running)?;
+    // The report shows the notes on the same terminal.
+    let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
+    let all = console::targets(&job.reports);
+    let screen = Screen::take(&mut job.reports, &all);
+    let console = Console::new(&wanted.running, to_terminal);
+    let looked = crate::pipeline::check(&job, &console)?;
+    console.finish();
+    show(screen, |out| crate::report::ReportFormat::Text.write_check(out, &looked.report))?;
+    looked.written.iter().for_each(|target| console.wrote(target, ""));
+    match NotPassed::of(&looked.report) {
+        Some(failed) => Err(failed.into()),
+        None => Ok(Code::Done),
+    }
+}
+
+fn volume(wanted: &args::VolumeArgs) -> anyhow::Result<Code> {
+    let mut job = job::volume_job(wanted)?;
+    start(&wanted.running)?;
+    let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
+    let all = console::targets(&job.reports);
+    let screen = Screen::take(&mut job.reports, &all);
+    let console = Console::new(&wanted.running, to_terminal);
+    let compared = crate::pipeline::volume(&job, &console)?;
+    console.finish();
+    show(screen, |out| crate::report::write_between(out, &compared.report))?;
+    compared.written.iter().for_each(|target| console.wrote(target, ""));
+    Ok(Code::Done)
+}
+
+fn sample(wanted: &args::SampleArgs) -> anyhow::Result<Code> {
+    let job = job::sample_job(wanted)?;
+    start(&wanted.running)?;
+    let console = Console::new(&wanted.running, false);
+    let sampled = crate::pipeline::sample(&job, &console)?;
+    console.finish();
+    if !job.output.is_stream() {
+        console.wrote(&job.output, &format!("{} heights", sampled.heights));
+    }
+    Ok(Code::Done)
+}
+
+/// Shows a report that was kept for the terminal.
+fn show(screen: Option<Screen>, write: impl FnOnce(&mut Vec<u8>) -> Result<(), crate::write::EncodeError>) -> Result<(), Error> {
+    let failed = |cause| WriteError::Write { target: Target::Stdout, cause }.into();
+    screen.map_or(Ok(()), |screen| screen.show(write)).map_err(failed)
 }
 
 /// What must stand before the work begins.

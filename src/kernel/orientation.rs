@@ -31,6 +31,14 @@ pub fn turn(a: DVec2, b: DVec2, c: DVec2) -> Turn {
     }
 }
 
+/// Twice the area of a triangle, positive for counter-clockwise corners. Sign exact, value right to a few units in the last
+/// place.
+#[inline]
+pub fn doubled_area(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+    let coord = |p: DVec2| Coord { x: p.x, y: p.y };
+    orient2d(coord(a), coord(b), coord(c))
+}
+
 /// Where the line through `r` and `s` crosses the segment from `p` to `q`, which has its ends on either side of it: 0 at `p`,
 /// 1 at `q`. Right to a few units in the last place, however small the angle.
 pub fn crossing([p, q]: [DVec2; 2], [r, s]: [DVec2; 2]) -> f64 {

@@ -5,6 +5,7 @@ pub mod drape;
 pub mod inside;
 pub mod polygon;
 pub mod quality;
+pub mod raster;
 pub mod region;
 pub mod strip;
 pub mod volume;

@@ -3,7 +3,9 @@
 use super::error::NoStation;
 use super::heads::{LocalOrigin, Names, coarse, has_colours, heights_over, is_local, local_origin};
 use super::watch::{CHECKING, Observer, PREPARING, READING, READING_GROUND, Stopwatch, WRITING};
-use super::{BuriedError, Error, Given, GroundInput, LineInput, Wishes, check_steepness, figures, on_ground, read_line};
+use super::{
+    BuriedError, Error, Given, GroundInput, LineInput, Rasters, Wishes, check_steepness, figures, on_ground, rasters, read_line,
+};
 use crate::ground::{Pieces, Stations, Tallied, axes};
 use crate::kernel::frame::Frame;
 use crate::model::{Bulking, Line, LineFeature, Note, Sheet, Terrain, Tin};
@@ -14,7 +16,8 @@ use crate::setout::{self, Stake};
 use crate::slope::levels::LEVEL_SNAP;
 use crate::surface;
 use crate::write::{
-    Delivery, Earthworks, Head, LineFormat, MeshFormat, Outputs, Target, WriteError, origin, write_origin, write_stakes,
+    Delivery, Earthworks, Head, LineFormat, MeshFormat, Outputs, RasterFormat, Target, WriteError, origin, write_origin,
+    write_stakes,
 };
 use std::path::Path;
 
@@ -39,6 +42,8 @@ pub struct BuildJob {
     pub meshes: Vec<(Target, MeshFormat)>,
     /// Where the finished ground goes; needs existing ground.
     pub finished: Vec<(Target, MeshFormat)>,
+    /// Where rasters of both go.
+    pub rasters: Rasters,
     /// Where line work goes.
     pub lines: Vec<(Target, LineFormat)>,
     /// Where slope stakes go; they need stations.
@@ -69,6 +74,8 @@ pub struct Built {
 enum Content {
     Mesh(MeshFormat),
     Finished(MeshFormat),
+    Raster(RasterFormat),
+    FinishedRaster(RasterFormat),
     Lines(LineFormat),
     Stakes,
     Plot(Drawing),
@@ -91,7 +98,7 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
 
     let Given { line, source, unit } = read_line(&job.input, &watch)?;
     check_sections(job, &line)?;
-    let Product { design, finished, lines, survey, mut report } = match &job.ground {
+    let Product { design, finished, lines, survey, ground, mut report } = match &job.ground {
         Some(ground) => on_ground::build(job, ground, &line, &source, unit, &watch)?,
         None => alone(job, &line, &source, &watch)?,
     };
@@ -105,6 +112,14 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
         true => Vec::new(),
         false => staked(job, &line, &design, survey.as_ref())?,
     };
+
+    let grid = |wanted: &[_], tin: &Tin| match wanted.is_empty() {
+        true => Ok(None),
+        false => rasters::sample(tin, job.rasters.cell, &source.label).map(Some),
+    };
+    let raster = grid(&job.rasters.design, &design)?;
+    let finished_raster = finished.as_ref().map(|tin| grid(&job.rasters.finished, tin)).transpose()?.flatten();
+    let reference = rasters::reference(&source, ground.as_ref(), job.input.unit, unit);
 
     watch.stage_of(WRITING);
     let local = local_origin(job, &design, finished.as_ref());
@@ -143,6 +158,14 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
             Content::Origin(mesh) => match &targets[mesh] {
                 Target::File(path) => write_origin(out, path, &Head { origin: Some(local), ..head }),
                 Target::Stdout => Ok(()),
+            },
+            Content::Raster(format) => match &raster {
+                Some((layout, values)) => format.write(out, layout, values, &reference),
+                None => Ok(()),
+            },
+            Content::FinishedRaster(format) => match &finished_raster {
+                Some((layout, values)) => format.write(out, layout, values, &reference),
+                None => Ok(()),
             },
             Content::Stakes => write_stakes(out, &stakes),
             Content::Stations => write_station_table(out, report),
@@ -203,6 +226,8 @@ pub(super) struct Product {
     pub(super) lines: Vec<LineFeature>,
     /// What drawings and setting out ask of the ground, where the job [`draws`](BuildJob::draws).
     pub(super) survey: Option<Survey>,
+    /// Where the ground came from.
+    pub(super) ground: Option<Source>,
     pub(super) report: Report,
 }
 
@@ -221,6 +246,11 @@ impl Survey {
 }
 
 impl BuildJob {
+    /// Whether an output holds the finished ground.
+    pub(super) fn wants_finished(&self) -> bool {
+        !self.finished.is_empty() || !self.rasters.finished.is_empty()
+    }
+
     /// Whether an output needs ground and pieces of the works, beyond meshes, line work and figures.
     pub(super) fn draws(&self) -> bool {
         let pages = self.reports.iter().any(|(_, format)| format.draws());
@@ -246,16 +276,24 @@ fn alone(job: &BuildJob, line: &Line, source: &Source, watch: &Stopwatch<'_>) ->
     }
     missed_levels(&job.wishes, &surface.levels).iter().for_each(|note| watch.note(note));
     let report = figures::report(line, source, &design, &surface, &watch.notes());
-    Ok(Product { design: surface.tin, finished: None, lines: surface.lines, survey: None, report })
+    Ok(Product { design: surface.tin, finished: None, lines: surface.lines, survey: None, ground: None, report })
 }
 
 fn surface_error(source: &Source, cause: surface::SurfaceError) -> Error {
     Error::Surface { label: source.label.clone(), cause }
 }
 
+/// All outputs of a job.
+pub(super) fn targets(job: &BuildJob) -> Vec<Target> {
+    wanted(job).into_iter().map(|(target, _)| target).collect()
+}
+
 fn wanted(job: &BuildJob) -> Vec<(Target, Content)> {
     let meshes = job.meshes.iter().map(|(target, format)| (target.clone(), Content::Mesh(*format)));
     let finished = job.finished.iter().map(|(target, format)| (target.clone(), Content::Finished(*format)));
+    let rasters = job.rasters.design.iter().map(|(target, format)| (target.clone(), Content::Raster(*format)));
+    let finished_rasters = job.rasters.finished.iter();
+    let finished_rasters = finished_rasters.map(|(target, format)| (target.clone(), Content::FinishedRaster(*format)));
     let lines = job.lines.iter().map(|(target, format)| (target.clone(), Content::Lines(*format)));
     let reports = job.reports.iter().map(|(target, format)| (target.clone(), Content::Report(*format)));
     let tables = job.station_tables.iter().map(|target| (target.clone(), Content::Stations));
@@ -271,7 +309,7 @@ fn wanted(job: &BuildJob) -> Vec<(Target, Content)> {
             all.push((Target::File(origin::sidecar(path)), Content::Origin(mesh)));
         }
     }
-    all.extend(lines.chain(stakes).chain(tables).chain(plots).chain(reports));
+    all.extend(rasters.chain(finished_rasters).chain(lines).chain(stakes).chain(tables).chain(plots).chain(reports));
     all
 }
 

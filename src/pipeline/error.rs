@@ -1,6 +1,7 @@
 //! Why a job was not done.
 
 use super::DesignError;
+use super::diff::DiffError;
 use super::volume::ComparisonError;
 use crate::formation::FormationError;
 use crate::ground::{GroundError, TooManyStations};
@@ -37,6 +38,9 @@ pub enum Error {
     /// Two surfaces cannot be compared.
     #[error(transparent)]
     Overlay(#[from] ComparisonError),
+    /// Two files cannot be compared.
+    #[error(transparent)]
+    Diff(#[from] DiffError),
     /// Line and ground do not go together.
     #[error("{}", placed_on(.label, .ground, .cause))]
     Ground {

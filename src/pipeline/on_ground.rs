@@ -47,7 +47,7 @@ pub(super) fn build(
     let designs = designs(&job.wishes, &mut site, line, &source.label, watch)?;
     let options = Options {
         allow_open: input.allow_open,
-        finished: !job.finished.is_empty(),
+        finished: job.wants_finished(),
         stations: job.stations,
         keep: job.draws(),
         exactly: false,
@@ -68,7 +68,14 @@ pub(super) fn build(
         stations: built.stations,
         tallied: built.tallied,
     });
-    Ok(Product { design: built.design, finished: built.finished, lines: built.lines, survey, report })
+    Ok(Product {
+        design: built.design,
+        finished: built.finished,
+        lines: built.lines,
+        survey,
+        ground: Some(ground_source),
+        report,
+    })
 }
 
 /// One design for each sheet, as deep as it can reach ground.

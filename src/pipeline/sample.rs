@@ -1,12 +1,12 @@
 //! Exact heights of the sheet of the given line, at points or on a grid.
 
 use super::watch::{Observer, Stopwatch, WRITING};
-use super::{Error, Given, LineInput, check_steepness, read_line};
+use super::{Error, Given, LineInput, check_steepness, rasters, read_line};
 use crate::model::{Defect, Defects, Line, Sheet, Slope};
 use crate::read::{self, RawPoints, ReadError, ReadOptions};
 use crate::sheet::{Grid, Heights};
 use crate::validate::INPUT_LIMIT;
-use crate::write::{Anchor, GridLayout, Outputs, Target, write_points, write_raster};
+use crate::write::{Anchor, GridLayout, Outputs, RasterFormat, Target, write_points};
 use glam::DVec2;
 use std::path::PathBuf;
 
@@ -33,7 +33,7 @@ pub struct SampleJob {
     pub sheet: Sheet,
     /// Where the heights are wanted.
     pub at: Where,
-    /// Where they go: CSV for points, an ESRI ASCII raster for a grid.
+    /// Where they go: CSV for points, a raster for a grid.
     pub output: Target,
 }
 
@@ -47,8 +47,8 @@ pub enum Where {
         /// What is known about its format.
         options: ReadOptions,
     },
-    /// On a grid.
-    Raster(Lattice),
+    /// On a grid, which is written in a format.
+    Raster(Lattice, RasterFormat),
 }
 
 /// A grid as asked for.
@@ -87,7 +87,7 @@ pub fn sample(job: &SampleJob, observer: &dyn Observer) -> Result<Sampled, Error
         inputs.push(path.clone());
     }
     let mut outputs = Outputs::open(std::slice::from_ref(&job.output), &inputs)?;
-    let Given { line, source, .. } = read_line(&job.input, &watch)?;
+    let Given { line, source, unit } = read_line(&job.input, &watch)?;
     check_steepness(&line, &source, job.slope)?;
     let heights = match &job.at {
         Where::Points { path, options } => {
@@ -104,7 +104,7 @@ pub fn sample(job: &SampleJob, observer: &dyn Observer) -> Result<Sampled, Error
             outputs.write(0, |out| write_points(out, rows))?;
             heights.len()
         }
-        Where::Raster(wanted) => {
+        Where::Raster(wanted, format) => {
             let grid = lattice(&line, wanted, &source.label)?;
             watch.stage_of("index");
             let sheet = Heights::new(&line, job.slope, job.sheet);
@@ -113,7 +113,8 @@ pub fn sample(job: &SampleJob, observer: &dyn Observer) -> Result<Sampled, Error
             watch.stage_of(WRITING);
             let Grid { xll: x, yll: y, cell, ncols: columns, nrows: rows } = grid;
             let layout = GridLayout { columns, rows, x, y, anchor: Anchor::Center, cell };
-            outputs.write(0, |out| write_raster(out, &layout, &heights))?;
+            let reference = rasters::reference(&source, None, job.input.unit, unit);
+            outputs.write(0, |out| format.write(out, &layout, &heights, &reference))?;
             heights.len()
         }
     };

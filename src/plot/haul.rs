@@ -94,7 +94,7 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
         blocks.push(Block::symbol(Sample::Line("ln design"), "running net (cut − fill)"));
     }
     if !balanced(main).is_empty() {
-        blocks.push(Block::symbol(Sample::Dot, "balance point: what was cut so far fills what was filled"));
+        blocks.push(Block::symbol(Sample::Dot, "balance point: cut so far = fill so far"));
     }
     blocks.push(Block::symbol(Sample::Patch("c3"), "cut of an interval"));
     blocks.push(Block::symbol(Sample::Patch("f3"), "fill of an interval"));
@@ -145,7 +145,7 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     let figures = || stations.iter().map(|x| (*x, station_text(*x, &stations)));
     curve.below(&mut svg, "s m", curve.bottom() + 16.0, figures());
     bars.below(&mut svg, "s m", bars.bottom() + 16.0, figures());
-    svg.text("s b", curve.at - DVec2::new(0.0, 7.0), 0.0, "running net from the beginning: rising is cut, falling is fill");
+    svg.text("s b", curve.at - DVec2::new(0.0, 7.0), 0.0, &fitted("running net: rising is cut, falling is fill", SMALL, size_x));
     svg.text("s b", bars.at - DVec2::new(0.0, 7.0), 0.0, "cut and fill of each interval");
     svg.text("s soft", DVec2::new(12.0, bars.bottom() + 16.0), 0.0, "station");
     let mut y = below;

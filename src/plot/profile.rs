@@ -147,7 +147,7 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     } else {
         format!("heights {} times as small as lengths", figure(1.0 / factor, 1))
     };
-    let text = format!("stations and elevations in {} · {words} · {GENERATOR}", scene.unit.plural());
+    let text = format!("{words} · stations and elevations in {} · {GENERATOR}", scene.unit.plural());
     svg.text("s soft", DVec2::new(20.0, 43.0), 0.0, &fitted(&text, SMALL, style.width() - 40.0));
 
     let columns = columns(scene, length, scale);

@@ -282,8 +282,8 @@ fn section(
     chart.row_figures(&mut svg, step);
     let digits = super::scale::decimals(across);
     chart.below(&mut svg, "s m soft", chart.bottom() + 15.0, offsets.into_iter().map(|x| (x, signed(x, digits))));
-    let words = format!("offset from the axis, right +; lengths and heights in {unit} and in one scale");
-    svg.text("s soft", DVec2::new(LEFT, chart.bottom() + 31.0), 0.0, &words);
+    let words = format!("offset from the axis in {unit}, right +; heights in the same scale");
+    svg.text("s soft", DVec2::new(LEFT, chart.bottom() + 31.0), 0.0, &fitted(&words, 10.0, size.x));
     svg.finish()
 }
 

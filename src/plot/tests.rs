@@ -24,13 +24,13 @@ fn area(strokes: &[Stroke]) -> f64 {
 fn bands_have_the_areas_of_cut_and_fill() {
     for kit in [road(), yard()] {
         let scene = kit.scene();
-        let (scale, all, cut, fill) = band_outlines(&scene);
+        let (scale, [all, cut, fill]) = band_outlines(&scene).unwrap();
         let total = &kit.built.tallied.total;
         let near = |found: f64, expected: f64| {
             let found = found / (scale * scale);
             assert!((found - expected).abs() < 1e-6 * (1.0 + expected), "{found} for {expected}");
         };
-        near(area(&all), total.plan_area());
+        near(area(&all[0]), total.plan_area());
         near(area(&cut[0]), total.cut_area);
         near(area(&fill[0]), total.fill_area);
         assert!(total.cut_area > 100.0 && total.fill_area > 100.0);

@@ -16,7 +16,7 @@ pub enum ReadError {
     },
     /// The extension does not name a format.
     #[error(
-        "the extension does not say what format this is\n  --> {label}\n   = known: .geojson .json .csv .txt .tsv .xyz .xml .landxml\n   \
+        "the extension does not say what format this is\n  --> {label}\n   = known: .geojson .json .csv .txt .tsv .xyz .xml .landxml .dxf\n   \
          = help: give `--input-format geojson` or `--input-format csv`"
     )]
     UnknownFormat {

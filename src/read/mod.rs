@@ -5,10 +5,12 @@ mod columns;
 mod csv;
 mod decimal;
 mod decode;
+mod document;
 mod dxf;
 mod error;
 mod geojson;
 mod gpx;
+mod inventory;
 mod landxml;
 mod number;
 mod pick;
@@ -16,7 +18,9 @@ mod sniff;
 pub mod terrain;
 
 pub use columns::ColumnOrder;
+pub use document::{Document, parse_document, read_document};
 pub use error::ReadError;
+pub use inventory::{Held, Inventory, inventory};
 pub use pick::Pick;
 
 use crate::model::{LengthUnit, Note};
@@ -317,7 +321,12 @@ fn load(path: &Path, options: &ReadOptions) -> Result<(String, InputFormat, Vec<
 }
 
 fn source(label: &str, format: InputFormat, bytes: &[u8]) -> Source {
-    let sha256 = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
     let size = bytes.len() as u64;
+    let sha256 = sha256(bytes);
     Source { label: label.to_owned(), format, bytes: size, sha256, crs: None, kind: CoordinateKind::Unknown, unit: None }
+}
+
+/// SHA-256 of some bytes, in lower-case hexadecimal digits.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }

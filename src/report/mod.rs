@@ -1,10 +1,13 @@
 //! What a run has to tell: as data ([`Report`]), as JSON for machines, as text, Markdown and as a page for people, its rows as
 //! tables.
 
+pub mod batch;
 pub mod between;
 pub mod check;
+pub mod diff;
 pub mod ground;
 pub mod html;
+pub mod info;
 pub mod json;
 pub mod model;
 mod page;
@@ -16,12 +19,15 @@ pub mod volumes;
 #[cfg(test)]
 mod testing;
 
+pub use batch::{BATCH_SCHEMA, BatchReport, JobResult, JobRow, JobVolumes, render_batch};
 pub use between::BetweenReport;
 pub use check::{CHECK_SCHEMA, CheckReport, Checked, render_check, render_check_markdown};
+pub use diff::{DIFF_SCHEMA, DiffReport, render_diff};
 pub use ground::{
     Daylight, EndArea, FinishedFigures, GroundAreas, PadRow, SectionRow, SectionSlopes, SlopeRange, StationRow, TerrainFigures,
     ThreeSections, station_rows,
 };
+pub use info::{INFO_SCHEMA, InfoReport, render_info};
 pub use json::write_json;
 pub use model::*;
 pub use tables::write_station_table;
@@ -87,6 +93,19 @@ impl ReportFormat {
             Self::Markdown => write_markdown(out, report),
             Self::Html => html::write_html(out, report, scene, sections),
         }
+    }
+
+    /// Writes a report that is JSON or else text.
+    ///
+    /// # Errors
+    /// As [`write_json`].
+    pub fn write_plain(
+        self,
+        out: &mut (impl Write + ?Sized),
+        report: &impl serde::Serialize,
+        text: impl FnOnce() -> String,
+    ) -> Result<(), EncodeError> {
+        if self == Self::Json { write_json(out, report) } else { Ok(out.write_all(text().as_bytes())?) }
     }
 
     /// Writes the report of a comparison in this format.

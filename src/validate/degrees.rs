@@ -91,6 +91,10 @@ fn command(source: &Source, epsg: i64) -> String {
             format!("ogr2ogr -f GeoJSON -s_srs EPSG:4326 -t_srs EPSG:{epsg} projected.geojson {label}")
         }
         InputFormat::Asc => format!("gdalwarp -s_srs EPSG:4326 -t_srs EPSG:{epsg} -of AAIGrid {label} projected.asc"),
+        InputFormat::GeoTiff => format!("gdalwarp -s_srs EPSG:4326 -t_srs EPSG:{epsg} {label} projected.tif"),
+        InputFormat::Las => {
+            format!("pdal translate {label} projected.laz reprojection --filters.reprojection.out_srs=EPSG:{epsg}")
+        }
         // The old columns must go, or the new file has two for each direction.
         _ => format!(
             "ogr2ogr -f CSV -lco GEOMETRY=AS_XYZ -oo \"X_POSSIBLE_NAMES=lon*,x\" -oo \"Y_POSSIBLE_NAMES=lat*,y\" -oo \

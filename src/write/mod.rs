@@ -3,8 +3,11 @@
 //! The format modules write to any [`std::io::Write`] and know nothing of files; [`atomic`] knows files and nothing of formats.
 
 pub mod atomic;
+mod clash;
 pub mod dxf;
 pub mod error;
+#[cfg(feature = "geotiff")]
+pub mod geotiff;
 pub mod glb;
 pub mod head;
 pub mod landxml;
@@ -22,8 +25,11 @@ pub mod stl;
 mod target;
 
 pub use atomic::{Delivery, Outputs, Target, discard_unfinished};
+pub use clash::{Clash, Footprint, first_clash};
 pub use dxf::{write_dxf, write_dxf_lines};
 pub use error::{EncodeError, WriteError};
+#[cfg(feature = "geotiff")]
+pub use geotiff::write_geotiff;
 pub use glb::write_glb;
 pub use head::{Earthworks, Head};
 pub use landxml::{write_landxml, write_landxml_lines};
@@ -32,7 +38,7 @@ pub use obj::write_obj;
 pub use origin::write_origin;
 pub use ply::write_ply;
 pub use points::write_points;
-pub use raster::{Anchor, GridLayout, write_raster};
+pub use raster::{Anchor, GridLayout, RasterFormat, Reference, write_raster};
 pub use single::ROUNDING;
 pub(crate) use single::bytes as single_precision;
 #[cfg(test)]

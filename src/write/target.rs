@@ -42,7 +42,7 @@ impl fmt::Display for Target {
 }
 
 /// What a path stands for, to tell whether two paths stand for the same.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Identity {
     /// Device and number of something that exists.
     #[cfg_attr(not(unix), allow(dead_code, reason = "inodes are known on unix only"))]

@@ -2,8 +2,9 @@
 
 use super::Site;
 use serde_json::Value;
-use slopegen::read::InputFormat;
+use slopegen::model::LengthUnit;
 use slopegen::read::terrain::{RawFaces, RawGround, RawTerrain, TerrainOptions, parse_terrain};
+use slopegen::read::{InputFormat, Pick, ReadOptions, parse_line};
 use std::fs;
 use std::path::Path;
 
@@ -330,4 +331,41 @@ fn lost_digits_are_told() {
     assert!(site.read("r.json").contains("\"single-precision\""));
     let run = site.run("build road.geojson --slope 1:2 -o b.stl -o c.glb");
     assert!(!run.stderr.contains("single-precision"), "{}", run.stderr);
+}
+
+/// What the program writes it reads: the same surfaces and lines, bit for bit, with unit and reference system.
+#[test]
+fn surfaces_and_drawings_read_back() {
+    let site = site();
+    let files = |stem: &str, option: &str| ["ply", "xml", "dxf"].map(|ending| format!(" {option} {stem}.{ending}")).concat();
+    let lines = files("l", "--lines").replace(".ply", ".geojson");
+    site.run(&format!("{ROAD}{}{}{lines}", files("w", "-o"), files("f", "--finished"))).done();
+    for stem in ["w", "f"] {
+        let (_, expected) = read(&site, &format!("{stem}.ply"), InputFormat::Ply);
+        for (ending, format) in [("xml", InputFormat::LandXml), ("dxf", InputFormat::Dxf)] {
+            let (raw, triangles) = read(&site, &format!("{stem}.{ending}"), format);
+            assert_eq!(triangles, expected, "{stem}.{ending}");
+            assert_eq!(raw.source.unit, (format == InputFormat::LandXml).then_some(LengthUnit::Metre));
+        }
+    }
+    let hinge = |name: &str, options: &ReadOptions| -> Vec<[Option<f64>; 3]> {
+        let raw = parse_line(name, &fs::read(site.path(name)).unwrap(), options).unwrap();
+        assert_eq!(raw.lines.len(), 1, "{name}");
+        raw.lines[0].vertices.iter().map(|v| [Some(v.x), Some(v.y), v.z]).collect()
+    };
+    let json: Value = serde_json::from_str(&site.read("l.geojson")).unwrap();
+    let features = json["features"].as_array().unwrap();
+    let expected = features.iter().find(|f| f["properties"]["kind"] == "hinge").unwrap();
+    let expected: Vec<[Option<f64>; 3]> =
+        expected["geometry"]["coordinates"].as_array().unwrap().iter().map(|p| [0, 1, 2].map(|k| p[k].as_f64())).collect();
+    assert!(expected.len() > 20);
+    let pick = |features: &[&str], layers: &[&str]| Pick {
+        features: features.iter().map(ToString::to_string).collect(),
+        layers: layers.iter().map(ToString::to_string).collect(),
+        ..Pick::default()
+    };
+    let options = ReadOptions { pick: pick(&["hinge 1"], &[]), ..ReadOptions::of(InputFormat::LandXml) };
+    assert_eq!(hinge("l.xml", &options), expected);
+    let options = ReadOptions { pick: pick(&[], &["HINGE"]), ..ReadOptions::of(InputFormat::Dxf) };
+    assert_eq!(hinge("l.dxf", &options), expected);
 }

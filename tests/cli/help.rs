@@ -20,7 +20,29 @@ fn help_and_version_are_no_errors() {
 fn without_arguments_help_goes_to_standard_error() {
     let run = Site::new().run("");
     assert_eq!((run.code, run.stdout.as_str()), (2, ""));
-    assert!(run.stderr.contains("Usage: slopegen <COMMAND>"));
+    assert!(run.stderr.contains("Usage: slopegen [OPTIONS] <COMMAND>"));
+}
+
+/// Every command has examples in its help, and the parser takes them.
+#[test]
+fn examples_of_the_help_are_understood() {
+    let command = slopegen::cli::command();
+    let mut count = 0;
+    for sub in command.get_subcommands().chain([&command]) {
+        let help = sub.get_after_help().map(ToString::to_string).unwrap_or_default();
+        assert!(help.starts_with("Examples:\n  "), "{}: {help}", sub.get_name());
+        for line in help.lines().filter(|line| line.starts_with("  ") && !line.starts_with("      ")) {
+            let Some((_, example)) = line.split_once("slopegen ") else { continue };
+            let example = example.split(['>', '|']).next().unwrap();
+            let words = ["slopegen"].into_iter().chain(example.split_whitespace());
+            let parsed = slopegen::cli::command().try_get_matches_from(words);
+            assert!(parsed.is_ok(), "{line}: {}", parsed.unwrap_err());
+            count += 1;
+        }
+        // Lines that are broken anywhere but at blanks would break commands.
+        assert!(help.lines().all(|line| line.chars().count() <= 125), "{help}");
+    }
+    assert!(count > 25, "{count}");
 }
 
 /// All commands with their options.
@@ -78,7 +100,9 @@ fn every_warning_is_documented() {
 fn documented_examples_run() {
     let site = Site::new();
     fs::create_dir(site.path("fixtures")).unwrap();
-    for name in ["road.geojson", "pad.geojson", "pit.csv", "hill_road.geojson", "hill_pad.geojson", "ground.obj"] {
+    for name in
+        ["road.geojson", "pad.geojson", "pit.csv", "hill_road.geojson", "hill_pad.geojson", "hill_road.toml", "ground.obj"]
+    {
         let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(name);
         fs::copy(from, site.path("fixtures").join(name)).unwrap();
     }

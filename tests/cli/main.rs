@@ -1,13 +1,19 @@
 //! The command line from outside: the program is run as people run it.
 
+mod batch;
 mod build;
 mod check;
+mod colours;
 #[path = "../common/mod.rs"]
 mod common;
+mod diff;
 mod formats;
+mod generate;
 mod golden;
 mod ground;
 mod help;
+mod info;
+mod job_file;
 mod landxml;
 mod messages;
 mod plots;
@@ -36,6 +42,15 @@ struct Run {
     code: i32,
     stdout: String,
     stderr: String,
+}
+
+/// A site with the shipped example on existing ground, too.
+fn on_ground() -> Site {
+    let site = Site::new();
+    for name in ["hill_road.geojson", "ground.obj"] {
+        fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(name), site.path(name)).unwrap();
+    }
+    site
 }
 
 impl Site {

@@ -233,7 +233,7 @@ fn usage() {
         "build road.dxf --slope 1:2",
         "sample road.geojson --slope 1:2",
         "sample road.geojson --slope 1:2 --raster a.asc",
-        "sample road.geojson --slope 1:2 --raster a.tif --cell 1",
+        "sample road.geojson --slope 1:2 --raster a.png --cell 1",
         "sample road.geojson --slope 1:2 --raster a.asc --cell 0",
         "sample road.geojson --slope 1:2 --raster a.asc --cell 1 --box 0,0,1",
         "sample road.geojson --slope 1:2 --raster a.asc --cell 1 --box 1,0,0,1",

@@ -146,14 +146,14 @@ pub(super) fn draw_parts(svg: &mut Svg, map: &Map, scene: &Scene<'_>, most: usiz
 
 /// For tests: scale of the map, outlines of all works, and of the bands of cut and fill, as they are before simplification.
 #[cfg(test)]
-pub(in crate::plot) fn band_outlines(scene: &Scene<'_>) -> (f64, Vec<Stroke>, Vec<Vec<Stroke>>, Vec<Vec<Stroke>>) {
+pub(in crate::plot) fn band_outlines(scene: &Scene<'_>) -> Option<(f64, [Vec<Vec<Stroke>>; 3])> {
     /// Steps of a lattice that does not show in areas.
     const FINER: f64 = 1e5;
-    let map = Map::of(scene, 1000.0).unwrap();
-    let depths = Depths::of(scene).unwrap();
-    let pieces = || scene.ground.as_ref().unwrap().pieces.iter();
-    let all = outlines(pieces(), &map, FINER, vec![0.0], |_, _| 1.0).remove(0);
-    let cut = outlines(pieces(), &map, FINER, depths.levels(), |part, height| -worked(part, height));
-    let fill = outlines(pieces(), &map, FINER, depths.levels(), worked);
-    (map.scale, all, cut, fill)
+    let map = Map::of(scene, 1000.0)?;
+    let depths = Depths::of(scene)?;
+    let pieces = scene.ground.as_ref()?.pieces;
+    let all = outlines(pieces.iter(), &map, FINER, vec![0.0], |_, _| 1.0);
+    let cut = outlines(pieces.iter(), &map, FINER, depths.levels(), |part, height| -worked(part, height));
+    let fill = outlines(pieces.iter(), &map, FINER, depths.levels(), worked);
+    Some((map.scale, [all, cut, fill]))
 }

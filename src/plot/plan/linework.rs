@@ -5,7 +5,7 @@ use super::map::Map;
 use crate::ground::place;
 use crate::kernel::sum::Sum;
 use crate::mesh::drape::Drape;
-use crate::model::{CurveKind, LineFeature, Part};
+use crate::model::{Chain, CurveKind, LineFeature, Part};
 use crate::plot::Scene;
 use crate::plot::course::Course;
 use crate::plot::labels::{Labels, width};
@@ -35,6 +35,8 @@ const KINDS: [(CurveKind, &str, &str); 8] = [
 #[derive(Debug)]
 pub(super) struct LineWork<'a> {
     features: Vec<(&'a LineFeature, Stroke)>,
+    /// The given line, whole.
+    hinges: Vec<Stroke>,
     /// Interval of the level curves that are drawn; `None` where they stand at chosen heights.
     interval: Option<f64>,
     on_ground: bool,
@@ -52,8 +54,11 @@ impl<'a> LineWork<'a> {
             |f: &LineFeature| f.kind == CurveKind::Breakline && f.chain.as_deref().is_some_and(|name| centres.contains(&name));
         let interval = interval(scene.lines).map(|interval| shown(interval, steepness(scene), map.scale));
         let is_shown = |f: &LineFeature| f.elevation.zip(interval).is_none_or(|(z, interval)| is_multiple(z, interval));
-        let features: Vec<&LineFeature> =
-            scene.lines.iter().filter(|f| f.points.len() > 1 && !is_axis(f) && is_shown(f)).collect();
+        let features: Vec<&LineFeature> = scene
+            .lines
+            .iter()
+            .filter(|f| f.points.len() > 1 && f.kind != CurveKind::Hinge && !is_axis(f) && is_shown(f))
+            .collect();
         let strokes: Vec<Stroke> = features
             .iter()
             .map(|f| {
@@ -63,8 +68,12 @@ impl<'a> LineWork<'a> {
             })
             .collect();
         let kept = simplified(&strokes, LINE_POINTS);
+        let given =
+            |chain: &Chain| Stroke { points: chain.vertices.iter().map(|p| map.of_world(*p)).collect(), closed: chain.closed() };
+        let given: Vec<Stroke> = scene.line.chains.iter().map(given).collect();
+        let hinges = simplified(&given, LINE_POINTS / 4).into_iter().flatten().collect();
         let drawn = features.into_iter().zip(kept).filter_map(|(f, stroke)| Some((f, stroke?))).collect();
-        Self { features: drawn, interval, on_ground: scene.ground.is_some() }
+        Self { features: drawn, hinges, interval, on_ground: scene.ground.is_some() }
     }
 
     /// Interval of the level curves.
@@ -86,7 +95,11 @@ impl<'a> LineWork<'a> {
         let mut blocks = Vec::new();
         let mut last = "";
         for (kind, class, name) in KINDS.iter().rev() {
-            if *name == last || !self.features.iter().any(|(f, _)| f.kind == *kind) {
+            let is_there = match kind {
+                CurveKind::Hinge => !self.hinges.is_empty(),
+                kind => self.features.iter().any(|(f, _)| f.kind == *kind),
+            };
+            if *name == last || !is_there {
                 continue;
             }
             last = name;
@@ -117,6 +130,12 @@ impl<'a> LineWork<'a> {
                 of_kind().filter(|(f, _)| self.heavy(f) == heavy).for_each(|(_, s)| path.add(&s.points, s.closed));
                 path
             };
+            if kind == CurveKind::Hinge {
+                let mut path = Path::default();
+                self.hinges.iter().for_each(|s| path.add(&s.points, s.closed));
+                svg.path(class, &path);
+                continue;
+            }
             svg.path(class, &path(false));
             svg.path(&format!("{class} i"), &path(true));
         }

@@ -192,7 +192,7 @@ impl<'a> Head<'a> {
     /// Calls `take` for every VERTEX up to the SEQEND.
     fn vertices(&self, pairs: &mut Pairs<'a>, mut take: impl FnMut(Part) -> Result<(), ReadError>) -> Result<(), ReadError> {
         loop {
-            let pair = pairs.expect()?;
+            let pair = pairs.required()?;
             match (pair.code, pair.text()) {
                 (0, b"VERTEX") => take(Part::read(pairs, pair.place)?)?,
                 (0, b"SEQEND") => return other(pairs).map(drop),
@@ -209,7 +209,7 @@ impl<'a> Head<'a> {
     pub(super) fn skip(&self, pairs: &mut Pairs<'a>) -> Result<(), ReadError> {
         loop {
             let before = *pairs;
-            let pair = pairs.expect()?;
+            let pair = pairs.required()?;
             match (pair.code, pair.text()) {
                 (0, b"SEQEND") => return other(pairs).map(drop),
                 (0, b"VERTEX") => {}

@@ -40,7 +40,7 @@ impl<'a> Index<'a> {
         let mut index = Self { units: None, blocks, by_key, entities: Vec::new(), pairs: 0 };
         let mut pairs = Pairs::new(label, bytes);
         loop {
-            let pair = pairs.expect()?;
+            let pair = pairs.required()?;
             match (pair.code, pair.text()) {
                 // A comment.
                 (999, _) => {}
@@ -57,7 +57,7 @@ impl<'a> Index<'a> {
     }
 
     fn section(&mut self, pairs: &mut Pairs<'a>, layers: &mut Layers<'a>) -> Result<(), ReadError> {
-        let name = pairs.expect()?;
+        let name = pairs.required()?;
         if name.code != 2 {
             return Err(unexpected(pairs.label, &name, "the name of a section, group code 2,"));
         }
@@ -77,7 +77,7 @@ impl<'a> Index<'a> {
     fn header(&mut self, pairs: &mut Pairs<'a>) -> Result<(), ReadError> {
         let mut variable: &[u8] = b"";
         loop {
-            let pair = pairs.expect()?;
+            let pair = pairs.required()?;
             match pair.code {
                 0 => return section_end(pairs.label, &pair),
                 9 => variable = pair.text(),
@@ -89,7 +89,7 @@ impl<'a> Index<'a> {
 
     fn blocks(&mut self, pairs: &mut Pairs<'a>) -> Result<(), ReadError> {
         loop {
-            let pair = pairs.expect()?;
+            let pair = pairs.required()?;
             match (pair.code, pair.text()) {
                 (0, b"BLOCK") => self.one_block(pairs)?,
                 (0, _) => return section_end(pairs.label, &pair),
@@ -114,7 +114,7 @@ impl<'a> Index<'a> {
         let body = *pairs;
         let mut count = 0;
         loop {
-            let pair = pairs.expect()?;
+            let pair = pairs.required()?;
             match (pair.code, pair.text()) {
                 (0, b"ENDBLK") => break,
                 (0, kind @ (b"BLOCK" | b"ENDSEC" | b"SECTION" | b"EOF")) => {
@@ -135,7 +135,7 @@ impl<'a> Index<'a> {
 
 fn tables<'a>(pairs: &mut Pairs<'a>, layers: &mut Layers<'a>) -> Result<(), ReadError> {
     loop {
-        let pair = pairs.expect()?;
+        let pair = pairs.required()?;
         match (pair.code, pair.text()) {
             (0, b"LAYER") => {
                 let (mut name, mut off, mut frozen): (&[u8], _, _) = (b"", false, false);
@@ -160,7 +160,7 @@ fn tables<'a>(pairs: &mut Pairs<'a>, layers: &mut Layers<'a>) -> Result<(), Read
 fn skip_section(pairs: &mut Pairs<'_>) -> Result<u64, ReadError> {
     let mut count = 0;
     loop {
-        let pair = pairs.expect()?;
+        let pair = pairs.required()?;
         if pair.code == 0 && matches!(pair.text(), b"ENDSEC" | b"SECTION" | b"EOF") {
             return section_end(pairs.label, &pair).map(|()| count);
         }

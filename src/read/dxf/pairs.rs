@@ -136,7 +136,7 @@ impl<'a> Pairs<'a> {
 
     /// The next pair of the file, which must be there.
     #[inline]
-    pub(super) fn expect(&mut self) -> Result<Pair<'a>, ReadError> {
+    pub(super) fn required(&mut self) -> Result<Pair<'a>, ReadError> {
         let place = self.place();
         match self.next()? {
             Some(pair) => Ok(pair),

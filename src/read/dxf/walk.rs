@@ -109,7 +109,7 @@ impl<'a> Walk<'_, 'a> {
     /// The entities from here to the end of section or block.
     fn span(&mut self, mut pairs: Pairs<'a>, around: Around) -> Result<(), ReadError> {
         loop {
-            let head = pairs.expect()?;
+            let head = pairs.required()?;
             match (head.code, head.text()) {
                 (0, b"ENDSEC" | b"ENDBLK") => return Ok(()),
                 (0, kind) => self.entity(kind, head.place, &mut pairs, around)?,

@@ -16,7 +16,7 @@ mod walk;
 mod xml;
 
 use super::terrain::{RawFaces, RawGround, Said, refuse};
-use super::{ColumnOrder, Pick, RawLine, ReadError, ReadOptions, Source};
+use super::{ColumnOrder, Held, Pick, RawLine, ReadError, ReadOptions, Source};
 use crate::model::{LengthUnit, Note};
 use features::Features;
 use glam::DVec3;
@@ -121,6 +121,23 @@ pub(super) fn mesh(
     let scale = header.scale(label, known.unit, notes)?;
     let (vertices, faces) = surface.finish(&text, label, &header, &scale, notes)?;
     Ok((vertices, faces, Said { kind: header.kind(), crs: header.crs, unit: Some(scale.unit) }))
+}
+
+/// All surfaces of a file, without their boxes.
+///
+/// # Errors
+/// For files that are damaged or not LandXML.
+pub(super) fn surfaces(label: &str, bytes: &[u8]) -> Result<Vec<Held>, ReadError> {
+    /// A name no surface can have: points and faces are counted and not kept.
+    const NONE: &str = "\0";
+    let text = xml::text(label, bytes, &mut Vec::new())?;
+    let mut surfaces = Surfaces::new(Some(NONE), false);
+    walk::walk(&mut Xml::new(label, &text), &mut surfaces)?;
+    let held = |surface: surface::Surface| {
+        let (name, vertices, faces) = (Some(surface.name), surface.vertices, surface.faces);
+        Held::Surface { name, vertices, faces, parts: Vec::new() }
+    };
+    Ok(surfaces.found.into_iter().map(held).collect())
 }
 
 /// Whether a file is said to have easting before northing.

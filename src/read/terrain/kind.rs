@@ -158,13 +158,14 @@ pub(super) fn check(label: &str, bytes: &[u8], format: InputFormat) -> Result<()
 }
 
 /// The format of a file whose name says nothing.
-pub(super) fn only_by_content(label: &str, bytes: &[u8]) -> Result<InputFormat, ReadError> {
+pub(in crate::read) fn only_by_content(label: &str, bytes: &[u8]) -> Result<InputFormat, ReadError> {
     let what = "the extension does not say what format the ground has";
     match looks(bytes) {
         Looks::Like(format) => Ok(format),
         Looks::Other(found, help) => Err(refuse(what, label, format!("its content looks like {found}"), help)),
         Looks::Unknown => {
-            let help = "give OBJ (.obj), PLY (.ply), points as text (.csv, .txt, .xyz), or ESRI ASCII grid (.asc)";
+            let help = "give OBJ (.obj), PLY (.ply), GeoTIFF (.tif), LAS (.las, .laz), points as text (.csv, .txt, .xyz), or ESRI ASCII \
+                        grid (.asc)";
             Err(refuse(what, label, format!("it begins with `{}`", clip(bytes)), help))
         }
     }

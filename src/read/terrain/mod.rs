@@ -2,8 +2,10 @@
 
 mod asc;
 mod comments;
+#[cfg(any(feature = "geotiff", feature = "las"))]
+mod geokeys;
 mod geotiff;
-mod kind;
+pub(super) mod kind;
 mod las;
 mod mesh;
 mod obj;
@@ -108,7 +110,7 @@ pub struct RawTerrain {
     pub notes: Vec<Note>,
 }
 
-/// Reads existing ground from a file: OBJ, PLY, points as text, ESRI ASCII grid.
+/// Reads existing ground from a file: OBJ, PLY, points as text, ESRI ASCII grid, GeoTIFF, LAS and LAZ.
 ///
 /// # Errors
 /// [`ReadError`] when the file cannot be opened, when its content is not what its name says, or when it is damaged: the

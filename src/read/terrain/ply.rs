@@ -9,6 +9,8 @@ use crate::model::Note;
 use crate::read::ReadError;
 use glam::DVec3;
 use header::{Element, Encoding, Header, Kind, Scalar};
+#[cfg(feature = "geotiff")]
+pub(super) use scan::single;
 use scan::{Miss, Scan, value};
 
 /// Names the list of a face goes by.

@@ -86,7 +86,7 @@ pub(super) fn value(bytes: &[u8], scalar: Scalar, little: bool) -> f64 {
 }
 
 /// A number of single precision (IEEE 754 binary32) from its bits, as the same number in double precision.
-fn single(bits: u32) -> f64 {
+pub(in crate::read::terrain) fn single(bits: u32) -> f64 {
     /// Smallest positive single number, 2⁻¹⁴⁹.
     const SMALLEST: f64 = f64::from_bits((1023 - 149) << 52);
     let fraction = bits & 0x7F_FFFF;

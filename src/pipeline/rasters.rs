@@ -1,0 +1,69 @@
+//! Meshes as rasters.
+
+use super::MOST_NODES;
+use crate::mesh::raster;
+use crate::model::{Defect, Defects, LengthUnit, Tin};
+use crate::read::{CoordinateKind, Source};
+use crate::write::{Anchor, GridLayout, RasterFormat, Reference, Target};
+
+/// Rasters to be written.
+#[derive(Clone, Debug, Default)]
+pub struct Rasters {
+    /// Side of their cells; positive.
+    pub cell: f64,
+    /// Where the design goes.
+    pub design: Vec<(Target, RasterFormat)>,
+    /// Where the finished ground goes; needs existing ground.
+    pub finished: Vec<(Target, RasterFormat)>,
+}
+
+/// A raster: where it lies, and its heights.
+pub(super) type Raster = (GridLayout, Vec<f64>);
+
+/// Samples a mesh at the centres of cells; their edges are whole multiples of their side.
+///
+/// # Errors
+/// [`Defects`] if it has more than [`MOST_NODES`] nodes, or none that the mesh lies under.
+pub(super) fn sample(tin: &Tin, cell: f64, label: &str) -> Result<Raster, Defects> {
+    let refuse = |code: &'static str, what: &str, figures: String, help: &str| {
+        let mut defects = Defects::default();
+        defects.push(code, || Defect {
+            code,
+            what: what.to_owned(),
+            at: label.to_owned(),
+            figures: Some(figures),
+            help: help.to_owned(),
+        });
+        Err(defects)
+    };
+    let grid = match raster::cover(tin, cell, MOST_NODES) {
+        Ok(grid) => grid,
+        Err(count) => {
+            let figures = format!("{} by {} at a cell of {cell}; at most {MOST_NODES:e} in all", count.x, count.y);
+            return refuse("too-many-nodes", "the raster would have too many nodes", figures, "give a larger `--cell`");
+        }
+    };
+    let values = grid.as_ref().map_or_else(Vec::new, |grid| raster::heights(tin, grid));
+    let Some(grid) = grid.filter(|_| values.iter().any(|value| !value.is_nan())) else {
+        let figures = format!("no centre of a cell of {cell} lies on the surface");
+        return refuse("raster-empty", "the raster would be empty", figures, "give a smaller `--cell`");
+    };
+    let (x, y) = (grid.xll - 0.5 * cell, grid.yll - 0.5 * cell);
+    let layout = GridLayout { columns: grid.ncols, rows: grid.nrows, x, y, anchor: Anchor::Corner, cell };
+    Ok((layout, values))
+}
+
+/// What a raster in `unit` may say of its coordinates: the system of the line, else of the ground, where coordinates still are
+/// what it says, and a unit where a file or the command line declared one.
+pub(super) fn reference<'a>(
+    line: &'a Source,
+    ground: Option<&'a Source>,
+    asked: Option<LengthUnit>,
+    unit: LengthUnit,
+) -> Reference<'a> {
+    let mut sources = std::iter::once(line).chain(ground);
+    let declared = asked.is_some() || sources.clone().any(|source| source.unit.is_some());
+    let kept = |source: &Source| source.kind != CoordinateKind::Degrees && source.unit.is_none_or(|own| own == unit);
+    let crs = sources.find_map(|source| source.crs.as_deref().filter(|_| kept(source)));
+    Reference { crs, unit: declared.then_some(unit) }
+}
