@@ -1,6 +1,6 @@
 //! Drawings of a design as SVG: plan, long profile, cross-sections, mass haul.
 //!
-//! All are drawn in px, [`Style::width`] wide, and scale with the page. Lines are within about a tenth of a px; the size of a
+//! All are drawn in px, as wide as the [`Style`] says, and scale with the page. Lines are within about a tenth of a px; the size of a
 //! drawing is bounded, whatever is drawn. The same input gives the same bytes.
 
 mod bands;

@@ -16,7 +16,7 @@ pub struct Pick {
     pub layers: Vec<String>,
     /// Name of the surface; needed where there are several.
     pub surface: Option<String>,
-    /// Classes of points of a cloud; empty: [`GROUND_CLASS`].
+    /// Classes of points of a cloud; empty: that of ground, 2.
     pub classes: Vec<u8>,
 }
 

@@ -486,6 +486,7 @@
   const printing = (on) => {
     paper = on;
     document.documentElement.classList.toggle("printing", on);
+    if (kept) look(kept);
     paint();
     if (!on) return;
     [still.width, still.height] = [canvas.width, canvas.height];
