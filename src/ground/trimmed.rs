@@ -142,7 +142,7 @@ impl Trimmed {
         for (i, list) in on_sides.iter().enumerate() {
             let edge = shape.edge(a, i as u8);
             let labels = works.on_design.get(&edge).map_or(&[][..], |list| list);
-            let known = self.pieces.entry(edge).or_default();
+            let mut pieces = Vec::new();
             let ends = [i, (i + 1) % 3].map(|n| nodes.design(shape.triangles[a as usize][n]));
             let path = nodes.along(ends, labels.iter().filter_map(|&label| nodes.meeting(label)));
             for run in runs(list, &passing) {
@@ -153,8 +153,12 @@ impl Trimmed {
                 };
                 for w in stretch.windows(2) {
                     edges.push([w[0], w[1]]);
-                    known.push([w[0].min(w[1]), w[0].max(w[1])]);
+                    pieces.push([w[0].min(w[1]), w[0].max(w[1])]);
                 }
+            }
+            // Without one the works on this side only touch the edge: the other side may have the whole of it.
+            if !pieces.is_empty() {
+                self.pieces.entry(edge).or_default().extend(pieces);
             }
         }
         edges

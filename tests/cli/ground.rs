@@ -64,6 +64,25 @@ fn slope_stakes_agree_with_the_sections() {
     assert_eq!(sections, 26);
 }
 
+/// Where a slope only touches an edge of the platform, the edge is still part of the hinge: all of it is in the line work.
+#[test]
+fn the_whole_hinge_is_in_the_line_work() {
+    let site = super::plots::site();
+    site.run("build way.geojson --width 5 --terrain ground.csv --slope 1:1.5 --tolerance 0.05 --interval 1 --lines l.geojson -q")
+        .done();
+    let lines: serde_json::Value = serde_json::from_str(&site.read("l.geojson")).unwrap();
+    let length = |kind: &str| -> f64 {
+        let of_kind = lines["features"].as_array().unwrap().iter().filter(|f| f["properties"]["kind"] == kind);
+        let points = of_kind.map(|f| f["geometry"]["coordinates"].as_array().unwrap());
+        let at = |p: &serde_json::Value, i: usize| p[i].as_f64().unwrap();
+        let step = |w: &[serde_json::Value]| (at(&w[0], 0) - at(&w[1], 0)).hypot(at(&w[0], 1) - at(&w[1], 1));
+        points.map(|points| points.windows(2).map(step).sum::<f64>()).sum()
+    };
+    // Both edges together are twice as long as the centre line (what one gains at the bend the other loses), the ends 5 each.
+    let centre = 40_f64.hypot(3.0) + 40_f64.hypot(13.0);
+    assert!((length("hinge") - (2.0 * centre + 10.0)).abs() < 1e-6, "{} {centre}", length("hinge"));
+}
+
 /// Stakes need stations; stations need ground or stakes.
 #[test]
 fn stakes_without_stations_or_ground() {

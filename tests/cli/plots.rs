@@ -5,7 +5,7 @@ use super::Site;
 use std::path::Path;
 
 /// A road on a ramp with a hump, over ground in cells of 10.
-fn site() -> Site {
+pub(super) fn site() -> Site {
     let z = |x: f64, y: f64| 100.0 + 0.06 * x + 3.0 * (x / 13.0).sin() + 0.08 * y;
     let row = |i: i32, j: i32| {
         let (x, y) = (f64::from(10 * i), f64::from(10 * j) - 40.0);
