@@ -201,6 +201,15 @@ fn a_spike_a_hole_and_a_piece_are_told() {
     assert!(notes[0].message.contains("steps of up to 0.5 at 5400050"), "{}", notes[0].message);
 }
 
+/// Nodes of a grid at half metres five thousand kilometres north are numbers of single precision, and rounded by nobody.
+#[test]
+fn grids_at_half_metres_are_not_rounded() {
+    let text = "ncols 3\nnrows 3\nxllcorner 500000\nyllcorner 5400000\ncellsize 1\n1 2 3\n2 3 4\n3 4 6\n";
+    let (terrain, notes) = ground(InputFormat::Asc, text.as_bytes()).unwrap();
+    assert!(terrain.vertices.iter().all(|v| (terrain.frame.to_world(*v).y.fract() - 0.5).abs() < 1e-12));
+    assert_eq!(notes, ["ground-grid"]);
+}
+
 #[test]
 fn ground_that_is_no_surface_is_refused() {
     let (given, faces) = (vertices(), triangles());

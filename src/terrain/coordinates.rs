@@ -4,7 +4,7 @@ use super::corners::Corners;
 use super::place::{defect, point, short};
 use super::upright;
 use crate::model::{Defect, Defects, Note};
-use crate::read::{CoordinateKind, Source};
+use crate::read::{CoordinateKind, InputFormat, Source};
 use crate::validate::{self, INPUT_LIMIT};
 use glam::DVec3;
 
@@ -89,7 +89,9 @@ impl Coordinates {
         let plan = lo.truncate().abs().max(hi.truncate().abs()).max_element();
         let step = 2.0_f64.powi(plan.max(COARSE).log2().floor() as i32 - 23);
         // Whole numbers are single by themselves as long as its step is not wider than one.
-        let telling = self.fractions || step > 1.0;
+        // So are the nodes of grids, which stand at round steps from a round corner.
+        let grid = matches!(source.format, InputFormat::Asc | InputFormat::GeoTiff);
+        let telling = !grid && (self.fractions || step > 1.0);
         if source.kind != CoordinateKind::Degrees && self.single && telling && step >= COARSE {
             let message = format!(
                 "all plan coordinates of the ground are of single precision, in steps of up to {} at {}: they were rounded \
