@@ -44,3 +44,4 @@ picture:
     cargo run --release -- build fixtures/hill_pad.geojson --slope 1:1.5 --terrain fixtures/ground.obj -o out/pad.obj --finished out/pad_ground.obj --lines out/pad_lines.geojson
     cargo run --release --example picture -- out/road_ground.obj docs/hill_road.png --lines out/road_lines.geojson --crop 14 --contours 1 --azimuth 350 --tilt 54
     cargo run --release --example picture -- out/pad_ground.obj docs/hill_pad.png --lines out/pad_lines.geojson --crop 6 --contours 1 --azimuth 352 --tilt 46 --width 800
+    cargo run --release -- build fixtures/hill_road.geojson --width 7 --terrain fixtures/ground.obj --cut-slope 1:1 --fill-slope 1:1.5 --stations 20 --plot docs/hill_road_plan.svg -o out/road.obj
