@@ -215,7 +215,7 @@ pub fn render_info(report: &InfoReport) -> String {
             let _ = writeln!(text, "\n{title}");
         }
         for setting in settings {
-            let _ = writeln!(text, "  {:NAME$}{}", printable(&setting.key), printable(&setting.values.join(", ")));
+            let _ = writeln!(text, "  {}{}", column(&printable(&setting.key)), printable(&setting.values.join(", ")));
         }
     }
     for row in &report.uses {
@@ -237,6 +237,11 @@ pub fn render_info(report: &InfoReport) -> String {
     text
 }
 
+/// A name as wide as its column; two blanks follow one that is wider.
+fn column(name: &str) -> String {
+    if name.chars().count() < NAME { format!("{name:NAME$}") } else { format!("{name}  ") }
+}
+
 fn lines(text: &mut String, lines: &[LineRow]) {
     if lines.is_empty() {
         return;
@@ -244,16 +249,13 @@ fn lines(text: &mut String, lines: &[LineRow]) {
     let total: usize = lines.iter().map(|line| line.vertices).sum();
     let _ = writeln!(text, "\nLines ({}, {total} vertices)", lines.len());
     for line in lines.iter().take(SHOWN) {
-        let name = line.name.as_deref().map_or_else(|| "(no name)".to_owned(), printable);
+        let name = column(&line.name.as_deref().map_or_else(|| "(no name)".to_owned(), printable));
         let closed = if line.closed && line.kind == "line" { ", closed" } else { "" };
         let missing =
             if line.without_elevation > 0 { format!(", {} without elevation", line.without_elevation) } else { String::new() };
         let z = line.z_min.zip(line.z_max).map_or_else(String::new, |(lo, hi)| format!(", elevations {lo:.3} to {hi:.3}"));
-        let _ = writeln!(
-            text,
-            "  {name:NAME$}{}{closed}, {} vertices{missing}, length {:.3}{z}",
-            line.kind, line.vertices, line.length
-        );
+        let _ =
+            writeln!(text, "  {name}{}{closed}, {} vertices{missing}, length {:.3}{z}", line.kind, line.vertices, line.length);
     }
     if lines.len() > SHOWN {
         let _ = writeln!(text, "  and {} more", lines.len() - SHOWN);
@@ -266,16 +268,16 @@ fn surfaces(text: &mut String, surfaces: &[SurfaceRow]) {
     }
     text.push_str("\nSurfaces\n");
     for row in surfaces.iter().take(SHOWN) {
-        let name = row.name.as_deref().map_or_else(|| "(no name)".to_owned(), printable);
+        let name = column(&row.name.as_deref().map_or_else(|| "(no name)".to_owned(), printable));
         let mut said = vec![row.kind.to_owned(), format!("{} vertices", row.vertices)];
         said.extend(row.faces.map(|faces| format!("{faces} faces")));
         said.extend(row.columns.zip(row.rows).map(|(columns, rows)| format!("{columns} columns, {rows} rows")));
         said.extend(row.step.map(|[x, y]| if x == y { format!("step {x}") } else { format!("step {x}, {y}") }));
         said.extend(row.triangles.map(|triangles| format!("{triangles} triangles")));
-        let _ = writeln!(text, "  {name:NAME$}{}", said.join(", "));
+        let _ = writeln!(text, "  {name}{}", said.join(", "));
         for part in row.parts.iter().take(SHOWN) {
-            let name = format!("  {}", printable(&part.name));
-            let _ = writeln!(text, "  {name:NAME$}{} faces", part.faces);
+            let name = column(&format!("  {}", printable(&part.name)));
+            let _ = writeln!(text, "  {name}{} faces", part.faces);
         }
         if let Some((plan, surface)) = row.plan_area.zip(row.surface_area) {
             let _ = writeln!(text, "  {:NAME$}{plan:.3} in plan, {surface:.3} as it lies", "  area");

@@ -332,7 +332,7 @@ impl<'a> Maker<'a> {
                 &format!("the profile of {} cannot be built", feature.text()),
                 heights.at,
                 figures,
-                "check the points and curves of the profile",
+                "check the points and curves of the profile, or take other lines with `--feature NAME`",
             )
         })?;
         Ok(Some((profile, heights.at)))
