@@ -61,7 +61,8 @@ pub struct Edge {
     /// Whether the inside of a ring lies on the left (0) and on the right (1).
     pub interior: [bool; 2],
     /// Given vertices at its ends. An edge runs along its chain; the end of a ring's last segment counts on past the last
-    /// vertex. An edge of a simplified ring may run over the first vertex: it then ends at a lesser one than it begins. Where several chains share an edge, the first.
+    /// vertex. An edge of a simplified ring may run over the first vertex: it then ends at a lesser one than it begins. Where
+    /// several chains share an edge, the first.
     pub given: [Given; 2],
     /// Vertices between the ends.
     pub inner: Vec<Inner>,
