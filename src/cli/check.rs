@@ -17,7 +17,7 @@ const MOST_PLACES: usize = 10_000;
 
 #[derive(Debug, Args)]
 pub(super) struct CheckArgs {
-    /// The mesh: .obj, .ply or LandXML; - is standard input
+    /// The mesh: .obj, .ply, LandXML or .dxf; - is standard input
     #[arg(value_name = "MESH")]
     pub(super) mesh: PathBuf,
     /// Format of the mesh [default: by its extension, else by its content]
@@ -26,6 +26,10 @@ pub(super) struct CheckArgs {
     /// Which surface of a LandXML file with several of them is looked at
     #[arg(long, value_name = "NAME", help_heading = help::INPUT)]
     pub(super) surface: Option<String>,
+
+    /// Look only at the faces on this layer of a drawing; may be repeated [default: all that are on]
+    #[arg(long, value_name = "NAME", help_heading = help::INPUT)]
+    pub(super) layer: Vec<String>,
 
     /// A slope to be kept: 1:1.5, 2H:1V, 1in2, 50% or 26.57deg
     ///
@@ -61,6 +65,7 @@ pub(super) enum MeshFormatArg {
     Obj,
     Ply,
     Landxml,
+    Dxf,
 }
 
 /// The job of `slopegen check`.
@@ -86,11 +91,12 @@ pub(super) fn check_job(args: &CheckArgs) -> Result<CheckJob, UsageErrors> {
         MeshFormatArg::Obj => InputFormat::Obj,
         MeshFormatArg::Ply => InputFormat::Ply,
         MeshFormatArg::Landxml => InputFormat::LandXml,
+        MeshFormatArg::Dxf => InputFormat::Dxf,
     });
     let job = tolerance.zip(most_off).zip(places).map(|((tolerance_deg, most_off), places)| CheckJob {
         path: args.mesh.clone(),
         format,
-        pick: Pick { surface: args.surface.clone(), ..Pick::default() },
+        pick: Pick { surface: args.surface.clone(), layers: args.layer.clone(), ..Pick::default() },
         slope: slope.map(|slope| SlopeWish { slope, tolerance_deg, most_off, parts: args.part.clone() }),
         gap,
         places,

@@ -67,6 +67,7 @@ fn even_odd(chains: &mut [Chain], nested: &[(usize, usize)], notes: &mut Vec<Not
     };
     let around: BTreeMap<usize, usize> = nested.iter().copied().collect();
     let free = chains.iter().map(polygon).max().unwrap_or(0) + 1;
+    let mut holes = 0;
     for i in 0..chains.len() {
         match (chains[i].role, around.get(&i)) {
             (Role::Outer { .. }, Some(&outer)) => {
@@ -79,8 +80,12 @@ fn even_odd(chains: &mut [Chain], nested: &[(usize, usize)], notes: &mut Vec<Not
             }
             // A hole of a ring that is a hole itself bounds an island.
             (Role::Hole { .. }, None) => chains[i].role = Role::Outer { polygon: free + i as u32 },
+            (Role::Hole { .. }, Some(_)) => holes += 1,
             _ => {}
         }
+    }
+    if holes > 0 {
+        notes.push(Note::new("polygon-holes", format!("polygons have holes, into which slopes run too: {holes}")));
     }
 }
 

@@ -22,6 +22,37 @@ fn site() -> Site {
     site
 }
 
+/// A drawing of the works is checked like any mesh; its layers are the groups a slope is asked of.
+#[test]
+fn check_takes_drawings() {
+    let site = site();
+    site.run(&format!("{ROAD} -o road.dxf -o road.obj --finished all.dxf")).done();
+    for slopes in ["--slope 1:1 --part cut_slope", "--slope 1:1.5 --part fill_slope"] {
+        site.run(&format!("check all.dxf {slopes} --report check.json --quiet")).done();
+        let report: Value = serde_json::from_str(&site.read("check.json")).unwrap();
+        assert_eq!(report["inputs"][0]["format"], "dxf");
+    }
+    // The same figures as for the mesh, but for what the order of vertices decides.
+    let looked = |arguments: &str| -> Value {
+        site.run(&format!("check {arguments} --report check.json --quiet")).done();
+        serde_json::from_str(&site.read("check.json")).unwrap()
+    };
+    let (drawing, mesh) = (looked("road.dxf"), looked("road.obj"));
+    for key in ["faces", "triangles", "pieces"] {
+        assert_eq!(drawing["mesh"][key], mesh["mesh"][key], "{key}");
+    }
+    let names = |report: &Value| -> Vec<String> {
+        let mut names: Vec<_> = report["parts"].as_array().unwrap().iter().map(|part| part["name"].to_string()).collect();
+        names.sort();
+        names
+    };
+    assert_eq!(names(&drawing), names(&mesh));
+    let one = looked("road.dxf --layer cut_slope");
+    assert_eq!(one["parts"].as_array().unwrap().len(), 1);
+    let run = site.run("check all.dxf --slope 1:1");
+    assert_eq!(run.code, 5, "fill slopes are flatter: {}", run.stderr);
+}
+
 type Triangles = Vec<[[f64; 3]; 3]>;
 
 /// Corners of the triangles as the library's own reader finds them.

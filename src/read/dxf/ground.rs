@@ -1,5 +1,6 @@
 //! Faces and points of a drawing → raw ground.
 
+use super::layers::LayerId;
 use super::names::counted;
 use super::walk::{Placed, Shape};
 use crate::model::Note;
@@ -14,17 +15,19 @@ pub(super) struct Ground<'l> {
     vertices: Vec<DVec3>,
     at: FxHashMap<[u64; 3], u32>,
     faces: Faces,
+    /// Layer of each face.
+    layers: Vec<LayerId>,
     points: Vec<DVec3>,
 }
 
 impl<'l> Ground<'l> {
     pub(super) fn new(label: &'l str) -> Self {
         let (vertices, points) = (Vec::new(), Vec::new());
-        Self { label, vertices, at: FxHashMap::default(), faces: Faces::with_capacity(0), points }
+        Self { label, vertices, at: FxHashMap::default(), faces: Faces::with_capacity(0), layers: Vec::new(), points }
     }
 
     pub(super) fn take(&mut self, placed: Placed) -> Result<(), ReadError> {
-        let Placed { shape, system, place, .. } = placed;
+        let Placed { shape, system, place, layer } = placed;
         let world = |p: DVec3| system.map_or(p, |system| system.transform_point3(p));
         let finite = |p: &DVec3| p.is_finite();
         let sound = match shape {
@@ -33,7 +36,7 @@ impl<'l> Ground<'l> {
                 let sound = corners.iter().all(finite);
                 if sound {
                     let corners = corners.map(|corner| self.vertex(corner));
-                    self.face(corners);
+                    self.face(corners, layer);
                 }
                 sound
             }
@@ -43,7 +46,7 @@ impl<'l> Ground<'l> {
                 if sound {
                     let numbers: Vec<u32> = points.into_iter().map(|point| self.vertex(point)).collect();
                     for face in faces {
-                        self.face(face.map(|corner| numbers.get(corner as usize).copied().unwrap_or(0)));
+                        self.face(face.map(|corner| numbers.get(corner as usize).copied().unwrap_or(0)), layer);
                     }
                 }
                 sound
@@ -75,13 +78,19 @@ impl<'l> Ground<'l> {
     }
 
     /// Corners one after the other that are the same count as one; what has then fewer than three has no area.
-    fn face(&mut self, [a, b, c, d]: [u32; 4]) {
+    fn face(&mut self, [a, b, c, d]: [u32; 4], layer: LayerId) {
+        self.layers.push(layer);
         match (a == b, b == c, c == d || d == a) {
             (false, false, false) => self.faces.polygon(&[a, b, c, d]),
             (true, _, _) => self.faces.triangle([a, c, d]),
             (_, true, _) => self.faces.triangle([a, b, d]),
             (_, _, true) => self.faces.triangle([a, b, c]),
         }
+    }
+
+    /// Layers of the faces, in their order.
+    pub(super) fn layers(&mut self) -> Vec<LayerId> {
+        std::mem::take(&mut self.layers)
     }
 
     /// The ground: the faces, or the points if there are none. `None` if there is neither.

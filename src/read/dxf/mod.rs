@@ -18,11 +18,14 @@ mod walk;
 
 pub(super) use pairs::SENTINEL;
 
-use super::terrain::{RawGround, Said, refuse};
+use super::terrain::{RawFaces, RawGround, Said, refuse};
 use super::{CoordinateKind, Pick, RawLine, ReadError, ReadOptions, Source};
 use crate::model::{LengthUnit, Note};
+use glam::DVec3;
 use index::Index;
-use layers::Layers;
+use layers::{LayerId, Layers};
+use names::counted;
+use rustc_hash::FxHashMap;
 use walk::{Passed, Want};
 
 /// Lines of a DXF file: polylines with their arcs cut into chords, single LINEs and ARCs joined end to end.
@@ -59,12 +62,50 @@ pub(super) fn lines(
 /// # Errors
 /// The file is damaged; it has no faces or points that are meant; a layer asked for is not there.
 pub(super) fn ground(label: &str, bytes: &[u8], pick: &Pick, notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
+    collected(label, bytes, pick, notes).map(|(ground, _, said)| (ground, said))
+}
+
+/// Faces of a drawing grouped by layer: vertices, faces, the group of each face, names of the groups in the order of their first
+/// faces.
+pub(super) type LayeredMesh = (Vec<DVec3>, RawFaces, Vec<u32>, Vec<String>);
+
+/// The faces of a drawing, to be looked at as they are.
+///
+/// # Errors
+/// As [`ground`]; also where the drawing has points only.
+pub(super) fn mesh(label: &str, bytes: &[u8], pick: &Pick, notes: &mut Vec<Note>) -> Result<(LayeredMesh, Said), ReadError> {
+    let (ground, (groups, names), said) = collected(label, bytes, pick, notes)?;
+    match ground {
+        RawGround::Mesh { vertices, faces } => Ok(((vertices, faces, groups, names), said)),
+        RawGround::Points(points) => {
+            let figures = counted(points.len(), "POINT", "POINTs");
+            Err(refuse("the drawing has points, but no faces", label, figures, "give a drawing with 3DFACEs or meshes"))
+        }
+        RawGround::Grid(_) => {
+            Err(refuse("the drawing is no mesh", label, "it is a grid", "give a drawing with 3DFACEs or meshes"))
+        }
+    }
+}
+
+/// Group of each face, and names of the groups: layers.
+type Groups = (Vec<u32>, Vec<String>);
+
+fn collected(label: &str, bytes: &[u8], pick: &Pick, notes: &mut Vec<Note>) -> Result<(RawGround, Groups, Said), ReadError> {
     check(label, bytes)?;
     let mut layers = Layers::new(&pick.layers);
     let index = Index::read(label, bytes, &mut layers)?;
     let mut found = ground::Ground::new(label);
     let passed = walk::walk(&index, &mut layers, Want::Ground, &mut |placed| found.take(placed))?;
     layers.check(label)?;
+    let mut names = Vec::new();
+    let mut numbers: FxHashMap<LayerId, u32> = FxHashMap::default();
+    let number = |layer: LayerId| {
+        *numbers.entry(layer).or_insert_with(|| {
+            names.push(layers.name(layer).to_owned());
+            names.len() as u32 - 1
+        })
+    };
+    let groups: Vec<u32> = found.layers().into_iter().map(number).collect();
     let Some(ground) = found.finish(notes) else {
         let help = "give a drawing with 3DFACEs, meshes or POINTs on layers that are on, or name a layer with `--terrain-layer`; \
                     contours have to be triangulated first";
@@ -72,7 +113,7 @@ pub(super) fn ground(label: &str, bytes: &[u8], pick: &Pick, notes: &mut Vec<Not
     };
     passed.tell(notes);
     let unit = unit(&index, notes);
-    Ok((ground, Said { unit, ..Said::default() }))
+    Ok((ground, (groups, names), Said { unit, ..Said::default() }))
 }
 
 /// # Errors

@@ -2,6 +2,7 @@
 
 use super::{InputFormat, Pick, RawFaces, ReadError, Said, Source, kind, obj, ply, refuse};
 use crate::model::{LengthUnit, Note, Part};
+use crate::read::dxf;
 use crate::read::landxml::{self, Known};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -20,13 +21,13 @@ pub struct RawMesh {
     /// The group of each face, an index into `names`; empty if there are no groups.
     pub groups: Vec<u32>,
     /// Names of the groups, in the order of their first faces: groups or else objects of an OBJ file, the property `part` of a
-    /// PLY file under the names of [`Part`].
+    /// PLY file under the names of [`Part`], layers of a drawing.
     pub names: Vec<String>,
     /// What was seen on the way.
     pub notes: Vec<Note>,
 }
 
-/// Reads a mesh from an OBJ, PLY or LandXML file; `-` is standard input. `pick` says which surface is meant of several.
+/// Reads a mesh from an OBJ, PLY, LandXML or DXF file; `-` is standard input. `pick` says which surface or layers are meant of several.
 ///
 /// # Errors
 /// [`ReadError`] when the file cannot be opened, is no mesh, or is damaged: cut off, text where numbers should be, corners that
@@ -53,9 +54,9 @@ pub fn read_mesh(path: &Path, format: Option<InputFormat>, pick: &Pick) -> Resul
 /// # Errors
 /// As [`read_mesh`].
 pub(super) fn parse_mesh(label: &str, bytes: &[u8], format: InputFormat, pick: &Pick) -> Result<RawMesh, ReadError> {
-    if !matches!(format, InputFormat::Obj | InputFormat::Ply | InputFormat::LandXml) {
+    if !matches!(format, InputFormat::Obj | InputFormat::Ply | InputFormat::LandXml | InputFormat::Dxf) {
         let figures = format!("its format is `{format}`");
-        return Err(refuse("the file is no mesh", label, figures, "give a mesh as OBJ, PLY or LandXML"));
+        return Err(refuse("the file is no mesh", label, figures, "give a mesh as OBJ, PLY, LandXML or DXF"));
     }
     kind::check(label, bytes, format)?;
     // The checksum takes as long as the fast formats themselves.
@@ -75,6 +76,12 @@ pub(super) fn parse_mesh(label: &str, bytes: &[u8], format: InputFormat, pick: &
                     read.map(|(vertices, faces, of_file)| {
                         said = of_file;
                         (vertices, Some(faces), (Vec::new(), Vec::new()))
+                    })
+                }
+                InputFormat::Dxf => {
+                    dxf::mesh(label, bytes, pick, &mut notes).map(|((vertices, faces, groups, names), of_file)| {
+                        said = of_file;
+                        (vertices, Some(faces), (groups, names.into_iter().map(layer_name).collect()))
                     })
                 }
                 _ => obj::load(label, bytes, &mut notes).map(|loaded| {
@@ -97,6 +104,12 @@ pub(super) fn parse_mesh(label: &str, bytes: &[u8], format: InputFormat, pick: &
 fn part_name(number: f64) -> String {
     let known = Part::ALL.into_iter().find(|part| f64::from(*part as u8) == number);
     known.map_or_else(|| format!("part {number}"), |part| part.name().to_owned())
+}
+
+/// Name of a layer, or of the part it stands for: release 12 of DXF has capitals only.
+fn layer_name(layer: String) -> String {
+    let part = Part::ALL.into_iter().find(|part| part.name().eq_ignore_ascii_case(&layer));
+    part.map_or(layer, |part| part.name().to_owned())
 }
 
 /// The groups of faces from where each begins; none if no group begins.
@@ -174,7 +187,7 @@ mod tests {
         let error = parse_mesh("a.csv", b"1 2 3", InputFormat::Csv, &Pick::default()).unwrap_err().to_string();
         assert_eq!(
             error,
-            "the file is no mesh\n  --> a.csv\n   = its format is `csv`\n   = help: give a mesh as OBJ, PLY or LandXML"
+            "the file is no mesh\n  --> a.csv\n   = its format is `csv`\n   = help: give a mesh as OBJ, PLY, LandXML or DXF"
         );
         let error = parse_mesh("a.obj", b"v 0 0 0\nf 1 1 2\n", InputFormat::Obj, &Pick::default()).unwrap_err().to_string();
         assert!(error.contains("line 2"));
