@@ -1,10 +1,11 @@
 //! `slopegen batch`: many job files, one summary.
 
 use super::args::Running;
+use super::checks::{Checks, UsageErrors};
 use super::console::{self, Screen};
 use super::exit_code::Code;
 use super::help;
-use super::job::{self, Checks, UsageErrors};
+use super::job;
 use super::job_file::{self, JobFile};
 use crate::model::Note;
 use crate::pipeline::{self, Batch, BuildJob, Built, Error, Observer};

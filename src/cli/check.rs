@@ -1,8 +1,8 @@
 //! `slopegen check`: arguments and job.
 
 use super::args::Running;
+use super::checks::{Checks, LEAST_LENGTH, UsageErrors, targets};
 use super::help;
-use super::job::{Checks, LEAST_LENGTH, UsageErrors, targets};
 use super::number::{self, Rule};
 use crate::pipeline::{CheckJob, SlopeWish};
 use crate::read::{InputFormat, Pick};

@@ -1,10 +1,10 @@
 //! `slopegen diff`: arguments and job.
 
 use super::args::Running;
+use super::checks::{Checks, UsageErrors};
 use super::console::{self, Console, Screen};
 use super::exit_code::Code;
 use super::help;
-use super::job::{Checks, UsageErrors};
 use super::number::{self, Rule};
 use crate::pipeline::{self, Beyond, Bounds, DiffJob, Most};
 use crate::read::Pick;

@@ -1,6 +1,6 @@
 //! What the process exits with.
 
-use super::job::UsageErrors;
+use super::checks::UsageErrors;
 use crate::ground::GroundError;
 use crate::pipeline::{Beyond, Error, NotPassed};
 use crate::read::ReadError;

@@ -1,10 +1,11 @@
 //! `slopegen info`: arguments, and job files, which only the command line knows.
 
 use super::args::Running;
+use super::checks::{Checks, UsageErrors};
 use super::console::{self, Console, Screen};
 use super::exit_code::Code;
 use super::help;
-use super::job::{self, Checks, UsageErrors};
+use super::job;
 use super::job_file;
 use crate::pipeline;
 use crate::read::{Pick, ReadOptions};

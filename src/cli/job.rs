@@ -1,24 +1,21 @@
 //! Arguments as typed → jobs in which everything is checked that can be without the input.
 
 use super::args::{BuildArgs, DirectionArg, FormatArg, InputArgs, Running, SampleArgs, SideArg, SlopeArgs, VolumeArgs};
+use super::checks::{Checks, LEAST_LENGTH, UsageErrors, ending, placed, targets};
 use super::number::{self, Rule};
 use crate::formation::{Crossfall, Formation};
-use crate::model::{Bulking, Extent, LengthUnit, Sheet, Side, Slope};
+use crate::model::{Bulking, Extent, Sheet, Side, Slope};
 use crate::pipeline::{
     Against, Area, BuildJob, GroundInput, Lattice, LineInput, LocalOrigin, Rasters, SampleJob, VolumeJob, Where, Wishes,
 };
 use crate::plot::Drawing;
 use crate::read::terrain::TerrainOptions;
-use crate::read::{ColumnOrder, InputFormat, Pick, ReadOptions};
+use crate::read::{InputFormat, Pick, ReadOptions};
 use crate::report::ReportFormat;
-use crate::write::{LineFormat, MeshFormat, RasterFormat, Target, UnknownFormat};
+use crate::write::{LineFormat, MeshFormat, RasterFormat, Target};
 use glam::{DVec2, DVec3};
 use std::ffi::{OsStr, OsString};
-use std::fmt;
 use std::path::Path;
-
-/// The smallest tolerance, height, distance and cell: what coordinates of lines are told apart by.
-pub(super) const LEAST_LENGTH: f64 = crate::validate::MERGE_DISTANCE;
 
 /// The narrowest road, in the length unit: the sides of a narrower one are one among the errors of coordinates.
 const LEAST_WIDTH: f64 = 0.001;
@@ -32,65 +29,10 @@ const CHORDS: f64 = 3.0;
 /// More threads than any machine this runs on has processors.
 const MOST_THREADS: usize = 1024;
 
-/// Everything wrong with the arguments, without the leading `error: ` of the first.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct UsageErrors(Vec<String>);
-
-impl fmt::Display for UsageErrors {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0.join("\nerror: "))
-    }
-}
-
-impl std::error::Error for UsageErrors {}
-
-impl UsageErrors {
-    /// One thing wrong.
-    pub(super) fn one(message: String) -> Self {
-        Self(vec![message])
-    }
-
-    /// Several; at least one.
-    pub(super) fn all(messages: Vec<String>) -> Self {
-        Self(messages)
-    }
-}
-
 /// Outputs of a surface, as meshes and as rasters.
 type Surfaces = (Vec<(Target, MeshFormat)>, Vec<(Target, RasterFormat)>);
 
-/// Gathers what is wrong, so that all of it is told at once.
-#[derive(Default)]
-pub(super) struct Checks(Vec<String>);
-
 impl Checks {
-    /// The value, or `None` after taking down what is wrong with it.
-    pub(super) fn take<T>(&mut self, result: Result<T, String>) -> Option<T> {
-        result.map_err(|error| self.0.push(error)).ok()
-    }
-
-    pub(super) fn number(&mut self, option: &str, text: Option<&String>, rule: Rule) -> Option<f64> {
-        text.and_then(|text| self.take(number::read(option, text, rule)))
-    }
-
-    pub(super) fn format<T>(&mut self, result: Result<T, UnknownFormat>) -> Option<T> {
-        self.take(result.map_err(|error| error.to_string()))
-    }
-
-    pub(super) fn order(&mut self, option: &str, text: Option<&String>) -> Option<ColumnOrder> {
-        let text = text?;
-        let result = text.parse::<ColumnOrder>();
-        self.take(result.map_err(|error| match error.split_once("; ") {
-            Some((what, help)) => format!("{what}\n  --> {option} {text}\n   = help: {help}"),
-            None => format!("{error}\n  --> {option} {text}"),
-        }))
-    }
-
-    pub(super) fn slope(&mut self, option: &str, text: Option<&String>) -> Option<Slope> {
-        let text = text?;
-        self.take(text.parse::<Slope>().map_err(|error| placed(&error.to_string(), option, text)))
-    }
-
     /// The slopes, each with its sheet: one, or with existing ground both.
     fn slopes(&mut self, args: &SlopeArgs, on_ground: bool) -> Vec<(Slope, Sheet)> {
         let slope = self.slope("--slope", args.slope.as_ref());
@@ -98,7 +40,7 @@ impl Checks {
         let fill = self.slope("--fill-slope", args.fill_slope.as_ref());
         let direction = args.direction.unwrap_or(if on_ground { DirectionArg::Auto } else { DirectionArg::Down });
         if direction == DirectionArg::Auto && !on_ground {
-            self.0.push(
+            self.refuse(
                 "the direction `auto` needs existing ground\n  --> --direction auto\n   \
                  = help: give the ground with `--terrain`, or choose `--direction down` or `up`"
                     .to_owned(),
@@ -114,7 +56,7 @@ impl Checks {
         let mut slopes = Vec::new();
         for (sheet, own, given, name, verb) in wanted {
             if !given && args.slope.is_none() {
-                self.0.push(format!(
+                self.refuse(format!(
                     "no slope was given for a surface that {verb}\n  --> --slope\n   \
                      = help: give `--slope` or `{name}`, such as 1:1.5, 2H:1V, 1in2, 50% or 26.57deg"
                 ));
@@ -140,14 +82,6 @@ impl Checks {
         LineInput { path: args.input.clone(), options, closed: args.closed, formation, unit, tolerance }
     }
 
-    pub(super) fn unit(&mut self, text: Option<&String>) -> Option<LengthUnit> {
-        let text = text?;
-        self.take(text.parse::<LengthUnit>().map_err(|error| match error.split_once("; ") {
-            Some((what, help)) => format!("{what}\n  --> --units {text}\n   = help: {help}"),
-            None => error,
-        }))
-    }
-
     fn formation(&mut self, args: &InputArgs, tolerance: f64) -> Option<Formation> {
         let width = self.number("--width", args.width.as_ref(), Rule::AtLeast(LEAST_WIDTH));
         let crossfall = args
@@ -156,7 +90,7 @@ impl Checks {
             .map(|text| self.take(text.parse::<Crossfall>().map_err(|error| placed(&error.to_string(), "--crossfall", text))));
         if args.width.is_some() && args.closed {
             let help = "leave `--closed` out for the centre line of a road, or `--width` for a ring";
-            self.0.push(format!(
+            self.refuse(format!(
                 "`--width` needs open lines, and `--closed` makes rings of them\n  --> --width\n   = help: {help}"
             ));
         }
@@ -193,7 +127,7 @@ impl Checks {
                 _ => None,
             };
             if let Some((what, help)) = lacks {
-                self.0.push(format!("{what}\n  --> --plot {target}\n   = help: {help}"));
+                self.refuse(format!("{what}\n  --> --plot {target}\n   = help: {help}"));
             }
         }
         plots
@@ -208,7 +142,7 @@ impl Checks {
         if !args.section.is_empty() && !drawn {
             let given = args.section.join(",");
             let help = "ask for a drawing of them, such as `--plot sections.svg`, or for `--report report.html`";
-            self.0.push(format!("`--section` says where cross-sections are drawn\n  --> --section {given}\n   = help: {help}"));
+            self.refuse(format!("`--section` says where cross-sections are drawn\n  --> --section {given}\n   = help: {help}"));
         }
         stations
     }
@@ -237,10 +171,10 @@ impl Checks {
     ) -> Rasters {
         let cell = self.number("--cell", args.cell.as_ref(), Rule::AtLeast(LEAST_LENGTH));
         match (&args.cell, design.first().or(finished.first())) {
-            (None, Some((target, _))) => self.0.push(format!(
+            (None, Some((target, _))) => self.refuse(format!(
                 "a raster needs the side of its cells\n  --> {target}\n   = help: give it with `--cell`, such as `--cell 0.5`"
             )),
-            (Some(text), None) if self.0.is_empty() => self.0.push(format!(
+            (Some(text), None) if self.is_clean() => self.refuse(format!(
                 "there is no raster that cells could be for\n  --> --cell {text}\n   = help: name an output that ends in {}, or leave \
                  out `--cell`",
                 RasterFormat::KNOWN
@@ -254,38 +188,12 @@ impl Checks {
     fn needs_ground(&mut self, options: &[(&str, Option<&String>)]) {
         for (option, text) in options {
             if let Some(text) = text {
-                self.0.push(format!(
+                self.refuse(format!(
                     "`{option}` needs existing ground\n  --> {option} {text}\n   = help: give the ground with `--terrain`"
                 ));
             }
         }
     }
-
-    /// Where reports go that are JSON or text: to standard output as text besides, unless quiet.
-    pub(super) fn plain_reports(&mut self, arguments: &[OsString], quiet: bool) -> Vec<(Target, ReportFormat)> {
-        let mut reports = Vec::new();
-        for target in targets(arguments) {
-            self.format(ending(&target, "report", &["json", "txt"], "`.json` or `.txt`"));
-            reports.extend(ReportFormat::of(&target).ok().map(|format| (target, format)));
-        }
-        if !reports.iter().any(|(target, _)| *target == Target::Stdout) && !quiet {
-            reports.push((Target::Stdout, ReportFormat::Text));
-        }
-        reports
-    }
-
-    pub(super) fn finish<T>(self, job: Option<T>) -> Result<T, UsageErrors> {
-        match job {
-            Some(job) if self.0.is_empty() => Ok(job),
-            _ => Err(UsageErrors(self.0)),
-        }
-    }
-}
-
-/// A message with the option it is about below its first line.
-fn placed(message: &str, option: &str, text: &str) -> String {
-    let (what, rest) = message.split_once('\n').unwrap_or((message, ""));
-    format!("{what}\n  --> {option} {text}\n{rest}").trim_end().to_owned()
 }
 
 /// The job of `slopegen build`.
@@ -324,7 +232,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
             ("--allow-open", args.allow_open.then(String::new).as_ref()),
         ]);
     } else if let Some(z) = &args.reference {
-        checks.0.push(format!(
+        checks.refuse(format!(
             "volumes are taken against the existing ground\n  --> --reference {z}\n   \
              = help: leave out `--reference`, or `--terrain`"
         ));
@@ -339,7 +247,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
 
     if args.input.width.is_some() && side.is_some_and(|side| side != Side::Outside) {
         let help = "leave `--side` out; `outside` says the same";
-        checks.0.push(format!(
+        checks.refuse(format!(
             "a road has its slopes outside\n  --> --side\n   = `--width` makes a ring of the edges of the road\n   = help: {help}"
         ));
     }
@@ -347,7 +255,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     let outputs = if args.output.is_empty() { vec![default_output(&args.input.input)] } else { args.output.clone() };
     let (meshes, design) = checks.surfaces(&outputs);
     if side == Some(Side::Inside) && slopes.len() > 1 {
-        checks.0.push(
+        checks.refuse(
             "slopes inside a ring need a direction\n  --> --side inside\n   \
              = help: choose `--direction down` for a pit from its rim, or `--direction up` for a mound from its foot"
                 .to_owned(),
@@ -447,7 +355,7 @@ pub(super) fn sample_job(args: &SampleArgs) -> Result<SampleJob, UsageErrors> {
             let csv_order = checks.order("--at-order", args.at_order.as_ref());
             if path == Path::new("-") && args.input.input == Path::new("-") {
                 let help = "give a file for one of them";
-                checks.0.push(format!("line and points cannot both come from standard input\n  --> --at -\n   = help: {help}"));
+                checks.refuse(format!("line and points cannot both come from standard input\n  --> --at -\n   = help: {help}"));
             }
             let output = args.output.as_deref().map_or(Target::Stdout, Target::from_arg);
             checks.format(ending(&output, "file of points", &["csv", "txt", "xyz"], "`.csv`, `.txt` or `.xyz`"));
@@ -513,14 +421,10 @@ pub(super) fn threads(args: &Running) -> Result<Option<usize>, UsageErrors> {
     let Some(text) = &args.threads else { return Ok(None) };
     match text.parse::<usize>() {
         Ok(n) if (1..=MOST_THREADS).contains(&n) => Ok(Some(n)),
-        _ => Err(UsageErrors(vec![format!(
+        _ => Err(UsageErrors::one(format!(
             "`{text}` is not a number of threads\n  --> --threads {text}\n   = help: give a whole number from 1 to {MOST_THREADS}"
-        )])),
+        ))),
     }
-}
-
-pub(super) fn targets(arguments: &[OsString]) -> Vec<Target> {
-    arguments.iter().map(|argument| Target::from_arg(argument)).collect()
 }
 
 /// The input's name with the ending of a mesh, in the working folder.
@@ -529,14 +433,6 @@ pub(super) fn default_output(input: &Path) -> OsString {
     let mut name = stem.unwrap_or(OsStr::new("slopegen")).to_owned();
     name.push(".obj");
     name
-}
-
-/// Refuses names of files that do not end in one of `known`; streams have any name.
-fn ending(target: &Target, what: &'static str, known: &[&str], phrase: &'static str) -> Result<(), UnknownFormat> {
-    let Target::File(path) = target else { return Ok(()) };
-    let found = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
-    let fits = found.is_some_and(|found| known.contains(&found.as_str()));
-    if fits || target.is_stream() { Ok(()) } else { Err(UnknownFormat { what, path: path.clone(), known: phrase }) }
 }
 
 /// Reads `X,Y,Z` or `auto`.

@@ -7,7 +7,8 @@ mod entry;
 mod nearest;
 
 use super::args::{Arguments, BuildArgs, Command};
-use super::job::{self, UsageErrors};
+use super::checks::UsageErrors;
+use super::job;
 use crate::pipeline::Error;
 use crate::read::ReadError;
 use clap::error::{ContextKind, ErrorKind};

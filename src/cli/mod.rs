@@ -3,6 +3,7 @@
 mod args;
 mod batch;
 mod check;
+mod checks;
 mod console;
 mod diff;
 mod exit_code;

@@ -1,16 +1,16 @@
 //! The driver: line, ground and designs → the works, the design cut off at the ground, the finished ground, all figures.
 
+use super::feeder::{Fed, Feeder};
 use super::figures::{self, Ground};
 use super::finished::Left;
 use super::nodes::Nodes;
-use super::patch::{NONE, Patch};
+use super::patch::Patch;
 use super::reach::{Bounds, Reach};
 use super::shape::Shape;
 use super::stations::{Stations, axes};
-use super::tally::{Tally, split};
 use super::trimmed::Trimmed;
 use super::works::{End, Flood, Sink, Works};
-use super::{Corner, GroundError, Piece, Pieces, SectionFigures, Sections, cell};
+use super::{GroundError, cell};
 use crate::kernel::frame::Frame;
 use crate::kernel::sum::Sum;
 use crate::mesh::volume;
@@ -386,18 +386,6 @@ fn standing(shape: &Shape, works: &Works, designs: &[Design]) -> Vec<Note> {
     open.into_iter().chain(note("walls", "the line stands off the ground with no slope between the two", walls)).collect()
 }
 
-/// What the feeder has gathered.
-pub(crate) struct Fed {
-    /// Cut and fill.
-    pub(crate) tallied: super::Tallied,
-    /// Cross-sections, where stations are wanted.
-    pub(crate) sections: Option<SectionFigures>,
-    /// The pieces themselves, where they are to be kept.
-    pub(crate) pieces: Option<Pieces>,
-    /// Plan area of each triangle of the design that has been fed.
-    pub(crate) covered: Vec<f64>,
-}
-
 /// Finds how deep the works reach.
 struct Depth<'a> {
     shape: &'a Shape,
@@ -424,88 +412,4 @@ fn beyond(depth: f64, tolerance: f64) -> f64 {
 fn rounded(end: f64, depth: f64, round: fn(f64) -> f64) -> f64 {
     let step = levels::round_interval(depth.max(f64::MIN_POSITIVE)) / 4.0;
     round(end / step) * step
-}
-
-/// Passes the pieces of the works on, with their stations.
-struct Feeder<'a> {
-    shape: &'a Shape,
-    stations: &'a Stations,
-    tally: Tally<'a>,
-    sections: Option<Sections<'a>>,
-    pieces: Option<Pieces>,
-    covered: Vec<f64>,
-    corners: Vec<Corner>,
-}
-
-impl<'a> Feeder<'a> {
-    fn new(shape: &'a Shape, stations: &'a Stations, keep: bool) -> Self {
-        Self {
-            shape,
-            stations,
-            pieces: keep.then(Pieces::default),
-            tally: Tally::new(stations),
-            sections: stations.spacing().map(|_| Sections::new(stations)),
-            covered: vec![0.0; shape.triangles.len()],
-            corners: Vec::new(),
-        }
-    }
-
-    fn hand_on(&mut self, piece: &Piece<'_>) {
-        self.tally.add(piece);
-        if let Some(sections) = &mut self.sections {
-            sections.add(piece);
-        }
-        if let Some(pieces) = &mut self.pieces {
-            pieces.add(piece);
-        }
-    }
-
-    fn finish(self) -> Fed {
-        Fed {
-            tallied: self.tally.finish(),
-            sections: self.sections.map(Sections::finish),
-            pieces: self.pieces,
-            covered: self.covered,
-        }
-    }
-}
-
-impl Sink for Feeder<'_> {
-    fn take(&mut self, a: u32, corners: &[cell::Corner]) {
-        let shape = self.shape;
-        self.corners.clear();
-        let axis = if shape.foot_of[a as usize] != NONE {
-            let foot = shape.feet[shape.foot_of[a as usize] as usize];
-            self.corners.extend(corners.iter().map(|c| Corner { at: c.at, height: c.h, station: foot.station(c.at) }));
-            Some(foot.chain)
-        } else if let Some((chain, stations)) = shape.road(a) {
-            let [p, q, r] = shape.plan(a);
-            let plane = [p.extend(stations[0]), q.extend(stations[1]), r.extend(stations[2])];
-            let station = |at| cell::on_plane(&plane, at);
-            self.corners.extend(corners.iter().map(|c| Corner { at: c.at, height: c.h, station: station(c.at) }));
-            Some(chain)
-        } else {
-            self.corners.extend(corners.iter().map(|c| Corner { at: c.at, height: c.h, station: 0.0 }));
-            None
-        };
-        // Over the first vertex of a ring stations begin again.
-        let corners_of_piece = std::mem::take(&mut self.corners);
-        let part = shape.parts[a as usize];
-        let ring = axis.and_then(|axis| self.stations.axes().get(axis as usize)).filter(|axis| axis.closed);
-        let length = ring.map_or(f64::INFINITY, |axis| axis.length);
-        if corners_of_piece.iter().any(|corner| corner.station > length) {
-            let (mut before, mut behind) = (Vec::new(), Vec::new());
-            split(&corners_of_piece, length, &mut before, &mut behind);
-            behind.iter_mut().for_each(|corner| corner.station = (corner.station - length).max(0.0));
-            for corners in [&before, &behind].into_iter().filter(|corners| corners.len() > 2) {
-                self.hand_on(&Piece { part, axis, corners });
-            }
-        } else {
-            self.hand_on(&Piece { part, axis, corners: &corners_of_piece });
-        }
-        self.corners = corners_of_piece;
-        let o = corners[0].at;
-        let twice: f64 = corners[1..].windows(2).map(|w| (w[0].at - o).perp_dot(w[1].at - o)).sum();
-        self.covered[a as usize] += 0.5 * twice;
-    }
 }

@@ -1,7 +1,8 @@
 //! From the works to what is written: meshes, line work, figures and the certificate.
 
-use super::build::{Fed, met as meets_ground};
+use super::build::met as meets_ground;
 use super::cell::{Label, TOUCH};
+use super::feeder::Fed;
 use super::finished::Left;
 use super::nodes::Nodes;
 use super::patch::{NONE, Patch};

@@ -5,6 +5,7 @@ mod cell;
 pub mod depths;
 pub mod end_areas;
 mod error;
+mod feeder;
 mod figures;
 mod finished;
 pub mod haul;

@@ -1,0 +1,126 @@
+//! Taking down everything wrong with the arguments, so that all of it is told at once.
+
+use super::number::{self, Rule};
+use crate::model::{LengthUnit, Slope};
+use crate::read::ColumnOrder;
+use crate::report::ReportFormat;
+use crate::write::{Target, UnknownFormat};
+use std::ffi::{OsStr, OsString};
+use std::fmt;
+
+/// The smallest tolerance, height, distance and cell: what coordinates of lines are told apart by.
+pub(super) const LEAST_LENGTH: f64 = crate::validate::MERGE_DISTANCE;
+
+/// Everything wrong with the arguments, without the leading `error: ` of the first.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct UsageErrors(Vec<String>);
+
+impl fmt::Display for UsageErrors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0.join("\nerror: "))
+    }
+}
+
+impl std::error::Error for UsageErrors {}
+
+impl UsageErrors {
+    /// One thing wrong.
+    pub(super) fn one(message: String) -> Self {
+        Self(vec![message])
+    }
+
+    /// Several; at least one.
+    pub(super) fn all(messages: Vec<String>) -> Self {
+        Self(messages)
+    }
+}
+
+/// Gathers what is wrong, so that all of it is told at once.
+#[derive(Default)]
+pub(super) struct Checks(Vec<String>);
+
+impl Checks {
+    /// The value, or `None` after taking down what is wrong with it.
+    pub(super) fn take<T>(&mut self, result: Result<T, String>) -> Option<T> {
+        result.map_err(|error| self.0.push(error)).ok()
+    }
+
+    pub(super) fn number(&mut self, option: &str, text: Option<&String>, rule: Rule) -> Option<f64> {
+        text.and_then(|text| self.take(number::read(option, text, rule)))
+    }
+
+    pub(super) fn format<T>(&mut self, result: Result<T, UnknownFormat>) -> Option<T> {
+        self.take(result.map_err(|error| error.to_string()))
+    }
+
+    pub(super) fn order(&mut self, option: &str, text: Option<&String>) -> Option<ColumnOrder> {
+        let text = text?;
+        let result = text.parse::<ColumnOrder>();
+        self.take(result.map_err(|error| match error.split_once("; ") {
+            Some((what, help)) => format!("{what}\n  --> {option} {text}\n   = help: {help}"),
+            None => format!("{error}\n  --> {option} {text}"),
+        }))
+    }
+
+    pub(super) fn slope(&mut self, option: &str, text: Option<&String>) -> Option<Slope> {
+        let text = text?;
+        self.take(text.parse::<Slope>().map_err(|error| placed(&error.to_string(), option, text)))
+    }
+
+    /// Whether nothing is wrong so far.
+    pub(super) fn is_clean(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Takes down something wrong.
+    pub(super) fn refuse(&mut self, message: String) {
+        self.0.push(message);
+    }
+
+    pub(super) fn unit(&mut self, text: Option<&String>) -> Option<LengthUnit> {
+        let text = text?;
+        self.take(text.parse::<LengthUnit>().map_err(|error| match error.split_once("; ") {
+            Some((what, help)) => format!("{what}\n  --> --units {text}\n   = help: {help}"),
+            None => error,
+        }))
+    }
+
+    /// Where reports go that are JSON or text: to standard output as text besides, unless quiet.
+    pub(super) fn plain_reports(&mut self, arguments: &[OsString], quiet: bool) -> Vec<(Target, ReportFormat)> {
+        let mut reports = Vec::new();
+        for target in targets(arguments) {
+            self.format(ending(&target, "report", &["json", "txt"], "`.json` or `.txt`"));
+            reports.extend(ReportFormat::of(&target).ok().map(|format| (target, format)));
+        }
+        if !reports.iter().any(|(target, _)| *target == Target::Stdout) && !quiet {
+            reports.push((Target::Stdout, ReportFormat::Text));
+        }
+        reports
+    }
+
+    pub(super) fn finish<T>(self, job: Option<T>) -> Result<T, UsageErrors> {
+        match job {
+            Some(job) if self.0.is_empty() => Ok(job),
+            _ => Err(UsageErrors(self.0)),
+        }
+    }
+}
+
+/// A message with the option it is about below its first line.
+pub(super) fn placed(message: &str, option: &str, text: &str) -> String {
+    let (what, rest) = message.split_once('\n').unwrap_or((message, ""));
+    format!("{what}\n  --> {option} {text}\n{rest}").trim_end().to_owned()
+}
+
+/// Where arguments lead.
+pub(super) fn targets(arguments: &[OsString]) -> Vec<Target> {
+    arguments.iter().map(|argument| Target::from_arg(argument)).collect()
+}
+
+/// Refuses names of files that do not end in one of `known`; streams have any name.
+pub(super) fn ending(target: &Target, what: &'static str, known: &[&str], phrase: &'static str) -> Result<(), UnknownFormat> {
+    let Target::File(path) = target else { return Ok(()) };
+    let found = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
+    let fits = found.is_some_and(|found| known.contains(&found.as_str()));
+    if fits || target.is_stream() { Ok(()) } else { Err(UnknownFormat { what, path: path.clone(), known: phrase }) }
+}
