@@ -16,7 +16,11 @@ const BAD: Style = AnsiColor::Red.on_default().bold();
 /// Obeys `--color`. Without it the streams decide: a terminal has colours unless `NO_COLOR` is set or `TERM` is `dumb`;
 /// `CLICOLOR_FORCE` brings them to files and pipes of the system.
 pub(in crate::cli) fn choose(when: ColorArg) {
+    let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty() && value != "0");
+    // A terminal that says it has no colours has none, also where `CI` is set, which else counts for one that has them.
+    let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb") && !set("CLICOLOR_FORCE");
     let choice = match when {
+        ColorArg::Auto if dumb => anstream::ColorChoice::Never,
         ColorArg::Auto => anstream::ColorChoice::Auto,
         ColorArg::Always => anstream::ColorChoice::Always,
         ColorArg::Never => anstream::ColorChoice::Never,
