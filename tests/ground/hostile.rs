@@ -254,7 +254,7 @@ fn outputs_are_whole_or_absent() {
         assert!([2, 4].contains(&run.code), "{output}: {}\n{}", run.code, run.stderr);
         assert_eq!(folder.files(), before, "{output}");
     }
-    let run = folder.run("build line.geojson --slope 1:2 --terrain ground.obj -o d.obj --finished f.stl");
+    let run = folder.run("build line.geojson --slope 1:2 --terrain ground.obj -o d.obj --finished f.skp");
     assert_eq!((run.code, folder.files()), (2, before), "{}", run.stderr);
 }
 
