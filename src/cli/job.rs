@@ -15,7 +15,7 @@ use crate::report::ReportFormat;
 use crate::write::{LineFormat, MeshFormat, RasterFormat, Target};
 use glam::{DVec2, DVec3};
 use std::ffi::{OsStr, OsString};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The narrowest road, in the length unit: the sides of a narrower one are one among the errors of coordinates.
 const LEAST_WIDTH: f64 = 0.001;
@@ -405,11 +405,16 @@ pub(super) fn volume_job(args: &VolumeArgs) -> Result<VolumeJob, UsageErrors> {
     let unit = checks.unit(args.units.as_ref());
     // A surface that is brought to a level is the first one given, and the existing one.
     let existing = if args.existing.is_some() { &args.existing_surface } else { &args.surface };
-    let picks = [&args.surface, existing].map(|surface| Pick {
+    let paths = [Some(&args.design), args.existing.as_ref()];
+    // Classes are meant for the clouds among the files.
+    let cloud = |path: &PathBuf| InputFormat::from_path(path).is_none_or(|format| format == InputFormat::Las);
+    let no_cloud = !paths.iter().flatten().any(|path| cloud(path));
+    let pick = |surface: &Option<String>, path: Option<&PathBuf>| Pick {
         surface: surface.clone(),
-        classes: args.class.clone(),
+        classes: if no_cloud || path.is_some_and(cloud) { args.class.clone() } else { Vec::new() },
         ..Pick::default()
-    });
+    };
+    let picks = [pick(&args.surface, paths[0]), pick(existing, paths[1].or(paths[0]))];
     checks.finish(against.map(|against| VolumeJob { against, csv_order, picks, unit, within, reports }))
 }
 

@@ -4,7 +4,7 @@ use super::watch::{Observer, Stopwatch, WRITING};
 use super::{Error, read_ground};
 use crate::overlay::{self, AREA_ROUNDING, Between, Depth, OverlayError, SAME_HEIGHT};
 use crate::read::terrain::TerrainOptions;
-use crate::read::{Document, Source, read_document};
+use crate::read::{Document, InputFormat, Source, read_document};
 use crate::report::between::Spot;
 use crate::report::diff::{BoundRow, DIFF_SCHEMA, DiffReport, Step, SurfaceChange, compare, render_diff};
 use crate::report::{Input, ReportFormat, Tool, Warning};
@@ -13,7 +13,7 @@ use crate::write::{Outputs, Target};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Two files to be compared, and where the figures go.
 #[derive(Clone, Debug)]
@@ -237,7 +237,14 @@ fn surfaces(job: &DiffJob, watch: &Stopwatch<'_>) -> Result<DiffReport, Error> {
         ))
         .into());
     }
-    let read = |path, unit, name| read_ground(path, &job.options, unit, &Named { watch, name });
+    // A surface is meant where there are several: not of meshes beside LandXML.
+    let holds = |path: &Path| InputFormat::from_path(path).is_none_or(|format| format == InputFormat::LandXml);
+    let chosen = [&job.first, &job.second].into_iter().any(|path| holds(path));
+    let read = |path: &Path, unit, name| {
+        let mut options = job.options.clone();
+        options.pick.surface = options.pick.surface.filter(|_| holds(path) || !chosen);
+        read_ground(path, &options, unit, &Named { watch, name })
+    };
     let asked = job.options.unit;
     let first = read(&job.first, asked, "first")?;
     let second = read(&job.second, asked.or(first.1.unit), "second")?;

@@ -250,6 +250,8 @@ pub fn read_line(path: &Path, options: &ReadOptions) -> Result<RawInput, ReadErr
 /// As [`read_line`].
 pub fn parse_line(label: &str, bytes: &[u8], options: &ReadOptions) -> Result<RawInput, ReadError> {
     let format = options.format.unwrap_or(InputFormat::GeoJson);
+    // A surface, where the file is also ground, is no matter of its lines.
+    Pick { surface: None, ..options.pick.clone() }.fits(label, format)?;
     let mut notes = Vec::new();
     let mut source = source(label, format, bytes);
     let mut lines = match format {

@@ -1,7 +1,7 @@
 //! What is meant of a file that holds several things.
 
 use super::terrain::{clip, refuse};
-use super::{RawLine, RawShape, ReadError};
+use super::{InputFormat, RawLine, RawShape, ReadError};
 
 /// Classification of ground points in LAS files (ASPRS LAS 1.4, table 9).
 #[allow(dead_code, reason = "used with the feature `las`")]
@@ -21,6 +21,21 @@ pub struct Pick {
 }
 
 impl Pick {
+    /// Refuses what a format does not have: an option that changes nothing would be taken to have chosen something.
+    ///
+    /// # Errors
+    /// Layers of something that is no drawing, a surface of something that is no LandXML, classes of something that is no cloud.
+    pub(super) fn fits(&self, label: &str, format: InputFormat) -> Result<(), ReadError> {
+        let wrong = [
+            (!self.layers.is_empty() && format != InputFormat::Dxf, "only drawings (DXF) have layers to choose from"),
+            (self.surface.is_some() && format != InputFormat::LandXml, "only LandXML files have surfaces to choose from"),
+            (!self.classes.is_empty() && format != InputFormat::Las, "only point clouds (LAS, LAZ) have classes to choose from"),
+        ];
+        let help = "leave out the option that chooses";
+        let figures = format!("its format is `{format}`");
+        wrong.iter().find(|(wrong, _)| *wrong).map_or(Ok(()), |(_, what)| Err(refuse(what, label, figures, help)))
+    }
+
     /// The lines of the names asked for, of a file whose features have names; all if none was asked for.
     ///
     /// # Errors
@@ -56,7 +71,26 @@ impl Pick {
 
 #[cfg(test)]
 mod tests {
+    use super::Pick;
     use crate::read::{InputFormat, ReadOptions, parse_line};
+
+    #[test]
+    fn nothing_is_chosen_where_there_is_no_choice() {
+        let layers = Pick { layers: vec!["a".into()], ..Pick::default() };
+        let surface = Pick { surface: Some("a".into()), ..Pick::default() };
+        let classes = Pick { classes: vec![2], ..Pick::default() };
+        for (pick, own) in [(layers, InputFormat::Dxf), (surface, InputFormat::LandXml), (classes, InputFormat::Las)] {
+            assert!(pick.fits("a", own).is_ok());
+            for other in [InputFormat::GeoJson, InputFormat::Obj, InputFormat::Asc] {
+                let message = pick.fits("a.x", other).unwrap_err().to_string();
+                assert!(message.contains("to choose from\n  --> a.x\n   = its format is"), "{message}");
+            }
+            assert!(Pick::default().fits("a", own).is_ok());
+        }
+        let options =
+            ReadOptions { pick: Pick { layers: vec!["a".into()], ..Pick::default() }, ..ReadOptions::of(InputFormat::Csv) };
+        assert!(parse_line("a", b"x,y,z\n0,0,1\n9,0,1\n", &options).is_err());
+    }
 
     #[test]
     fn lines_by_name() {

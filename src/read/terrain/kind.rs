@@ -74,7 +74,10 @@ fn looks(bytes: &[u8]) -> Looks {
         };
     }
     if first.starts_with(b"{") || first.starts_with(b"[") {
-        return Looks::Other("JSON", "give the ground as OBJ, PLY, points as text, or ESRI ASCII grid");
+        return Looks::Other(
+            "JSON",
+            "give the ground in one of the formats of `--terrain`, such as LandXML, OBJ or points as text",
+        );
     }
     if is(&[b"ncols", b"nrows", b"xllcorner", b"xllcenter", b"yllcorner", b"yllcenter"]) {
         return Looks::Like(InputFormat::Asc);
@@ -131,7 +134,7 @@ fn extension(format: InputFormat) -> &'static str {
 /// Refuses a file whose content is clearly not of the format asked for.
 pub(super) fn check(label: &str, bytes: &[u8], format: InputFormat) -> Result<(), ReadError> {
     if format == InputFormat::GeoJson {
-        let help = "give the ground as OBJ, PLY, points as text (.csv, .xyz), or ESRI ASCII grid (.asc)";
+        let help = "give the ground in one of the formats of `--terrain`, such as LandXML, OBJ or points as text";
         return Err(refuse("ground is not read from GeoJSON", label, "format: geojson", help));
     }
     if format == InputFormat::Gpx {
@@ -164,8 +167,8 @@ pub(in crate::read) fn only_by_content(label: &str, bytes: &[u8]) -> Result<Inpu
         Looks::Like(format) => Ok(format),
         Looks::Other(found, help) => Err(refuse(what, label, format!("its content looks like {found}"), help)),
         Looks::Unknown => {
-            let help = "give OBJ (.obj), PLY (.ply), GeoTIFF (.tif), LAS (.las, .laz), points as text (.csv, .txt, .xyz), or ESRI ASCII \
-                        grid (.asc)";
+            let help = "give LandXML (.xml), DXF (.dxf), OBJ (.obj), PLY (.ply), GeoTIFF (.tif), LAS (.las, .laz), points as text \
+                        (.csv, .txt, .xyz), or ESRI ASCII grid (.asc)";
             Err(refuse(what, label, format!("it begins with `{}`", clip(bytes)), help))
         }
     }

@@ -59,6 +59,7 @@ pub(super) fn parse_mesh(label: &str, bytes: &[u8], format: InputFormat, pick: &
         return Err(refuse("the file is no mesh", label, figures, "give a mesh as OBJ, PLY, LandXML or DXF"));
     }
     kind::check(label, bytes, format)?;
+    pick.fits(label, format)?;
     // The checksum takes as long as the fast formats themselves.
     let (mut source, read) = rayon::join(
         || crate::read::source(label, format, bytes),

@@ -148,6 +148,7 @@ fn parse(label: &str, bytes: &[u8], options: &TerrainOptions, by_name: Option<&C
     };
     kind::check(label, bytes, format)?;
     let pick = &options.pick;
+    pick.fits(label, format)?;
     let known = super::landxml::Known { pick, order: options.csv_order.as_ref(), unit: options.unit };
     // The checksum takes as long as the fast formats themselves.
     let (mut source, read) = rayon::join(
