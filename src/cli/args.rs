@@ -93,7 +93,8 @@ pub(super) struct BuildArgs {
     /// Take volumes against the plane at elevation Z [default: where the slopes end]; not with --terrain
     #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = help::SURFACE)]
     pub(super) reference: Option<String>,
-    /// Existing ground: .obj, .ply, .xml (LandXML), .csv, .xyz, .txt, .asc, .tif, .las or .laz; slopes then end where they meet it
+    /// Existing ground: .xml (LandXML), .dxf, .obj, .ply, .tif, .asc, .las, .laz, or points as .csv, .xyz, .txt; slopes then end
+    /// where they meet it
     #[arg(long, value_name = "FILE", help_heading = help::INPUT)]
     pub(super) terrain: Option<PathBuf>,
     /// Columns of a ground of points without a header, such as xyz or pnezd
@@ -129,8 +130,8 @@ pub(super) struct BuildArgs {
     #[arg(long, help_heading = help::SURFACE)]
     pub(super) strict: bool,
 
-    /// Write the mesh: .obj, .ply, .xml (LandXML), .dxf, .stl, .glb, or a raster, .tif or .asc; may be repeated [default: the input's name with .obj, in
-    /// the working folder]
+    /// Write the mesh: .obj, .ply, .xml (LandXML), .dxf, .stl, .glb, or a raster, .tif or .asc; may be repeated [default: the
+    /// input's name with .obj, in the working folder]
     #[arg(short, long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) output: Vec<OsString>,
     /// Side of the cells of rasters; heights are those of the mesh at their centres
@@ -214,7 +215,8 @@ pub(super) struct SampleArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct VolumeArgs {
-    /// The surface after the works: .obj, .ply, .xml (LandXML), .asc, .tif, or points as .las, .laz, .csv, .txt, .xyz; with --to-elevation the surface before
+    /// The surface after the works: .obj, .ply, .xml (LandXML), .dxf, .asc, .tif, or points as .las, .laz, .csv, .txt, .xyz; with
+    /// --to-elevation the surface before
     #[arg(value_name = "DESIGN")]
     pub(super) design: PathBuf,
     /// The surface before the works, in any of these formats
@@ -252,7 +254,8 @@ pub(super) struct VolumeArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct InputArgs {
-    /// The line: .geojson, .json, .csv, .txt, .tsv, .xyz or LandXML (.xml); - is standard input. For `build` also a job file, .toml
+    /// The line: .geojson, .json, .csv, .txt, .tsv, .xyz, .xml (LandXML) or .dxf; - is standard input. For `build` also a job file,
+    /// .toml
     #[arg(value_name = "INPUT")]
     pub(super) input: PathBuf,
     /// Format of the input [default: by its extension]
