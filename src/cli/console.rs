@@ -14,22 +14,6 @@ use std::io::{IsTerminal as _, Write as _};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Notes on the result itself rather than on how the input was read.
-const WARNINGS: [&str; 12] = [
-    "buried",
-    "line-beyond-end",
-    "ground-single-precision",
-    "ground-points-conflict",
-    "ground-holes",
-    "ground-pieces",
-    "ground-spikes",
-    "design-uncovered",
-    "meshes-swapped",
-    "lies-double",
-    "single-precision",
-    "units-differ",
-];
-
 /// Time between two frames of the progress display.
 const FRAME: Duration = Duration::from_millis(100);
 
@@ -94,7 +78,7 @@ pub(super) fn is_terminal(target: &Target) -> bool {
 
 /// What a note is called.
 pub(super) fn kind(note: &Note) -> &'static str {
-    if WARNINGS.contains(&note.code) { "warning" } else { "note" }
+    if note.is_warning() { "warning" } else { "note" }
 }
 
 /// Text that may hold names from files, without characters that would move the cursor or colour a terminal.

@@ -2,6 +2,22 @@
 
 use std::fmt;
 
+/// Notes on the result itself rather than on how the input was read.
+const WARNINGS: [&str; 12] = [
+    "buried",
+    "line-beyond-end",
+    "ground-single-precision",
+    "ground-points-conflict",
+    "ground-holes",
+    "ground-pieces",
+    "ground-spikes",
+    "design-uncovered",
+    "meshes-swapped",
+    "lies-double",
+    "single-precision",
+    "units-differ",
+];
+
 /// Something worth knowing that does not stop the work.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Note {
@@ -15,6 +31,11 @@ impl Note {
     /// A note.
     pub fn new(code: &'static str, message: impl Into<String>) -> Self {
         Self { code, message: message.into() }
+    }
+
+    /// Whether it is about the result itself rather than about how the input was read.
+    pub fn is_warning(&self) -> bool {
+        WARNINGS.contains(&self.code)
     }
 }
 

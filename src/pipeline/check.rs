@@ -101,8 +101,7 @@ fn look(raw: RawMesh, options: &Options, watch: &Stopwatch<'_>) -> CheckReport {
     };
     let mesh = Mesh { vertices: &raw.vertices, triangles: &triangles, faces: &faces, groups: &groups, names: &raw.names };
     let quality = quality::examine(&mesh, options);
-    let warn = |note: Note| Warning { code: note.code.to_owned(), message: note.message, details: BTreeMap::new() };
-    let warnings = watch.notes().into_iter().map(warn).collect();
+    let warnings = watch.notes().iter().map(|note| Warning::of(note, BTreeMap::new())).collect();
     let size = (raw.vertices.len(), count, triangles.len());
     let checked = Checked { vertices: size.0, faces: size.1, triangles: size.2, names: &raw.names, options };
     CheckReport { units, ..CheckReport::new(input, &checked, &quality, warnings) }

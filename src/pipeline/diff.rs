@@ -129,12 +129,7 @@ pub fn diff(job: &DiffJob, observer: &dyn Observer) -> Result<Differed, Error> {
             return Err(DiffError(message).into());
         }
     };
-    let warning = |note: &crate::model::Note| Warning {
-        code: note.code.to_owned(),
-        message: note.message.clone(),
-        details: BTreeMap::new(),
-    };
-    report.warnings = watch.notes().iter().map(warning).collect();
+    report.warnings = watch.notes().iter().map(|note| Warning::of(note, BTreeMap::new())).collect();
     report.passed = report.bounds.iter().all(|row| row.passed);
     watch.stage_of(WRITING);
     for (index, (_, format)) in job.reports.iter().enumerate() {

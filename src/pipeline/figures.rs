@@ -75,7 +75,7 @@ fn warnings(notes: &[Note]) -> Vec<Warning> {
 
 /// A note as the report tells it.
 pub(super) fn warning(note: &Note) -> Warning {
-    Warning { code: note.code.to_owned(), message: note.message.clone(), details: BTreeMap::new() }
+    Warning::of(note, BTreeMap::new())
 }
 
 /// Code of the note about buried stretches.

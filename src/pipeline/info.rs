@@ -145,7 +145,7 @@ fn not_read(purpose: &'static str, error: ReadError, unread: &mut Vec<ReadError>
 }
 
 fn warnings(notes: &[Note]) -> Vec<Warning> {
-    let of = |note: &Note| Warning { code: note.code.to_owned(), message: note.message.clone(), details: BTreeMap::new() };
+    let of = |note: &Note| Warning::of(note, BTreeMap::new());
     notes.iter().map(of).collect()
 }
 

@@ -263,9 +263,7 @@ fn warnings(notes: &[Note], found: &Between) -> Vec<Warning> {
         "design-uncovered" => BTreeMap::from([("area", Detail::Number(found.areas.design_uncovered))]),
         _ => BTreeMap::new(),
     };
-    let warning =
-        |note: &Note| Warning { code: note.code.to_owned(), message: note.message.clone(), details: details(note.code) };
-    notes.iter().map(warning).collect()
+    notes.iter().map(|note| Warning::of(note, details(note.code))).collect()
 }
 
 /// The area inside the rings of a file. Elevations do not matter.

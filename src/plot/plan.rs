@@ -29,6 +29,12 @@ const CONTOUR_POINTS: usize = 14_000;
 /// Contours of the ground, at most, and about as many as are aimed at.
 const CONTOURS: f64 = 24.0;
 
+/// Mean distance of contours on the map, at least, in px.
+const LEAST_SPACING: f64 = 14.0;
+
+/// Contours that stand closer have this many times the interval, or the next round one.
+const WIDER: f64 = 1.5;
+
 /// Room above the map: title, and what it is of.
 const HEAD: f64 = 56.0;
 
@@ -145,12 +151,20 @@ fn ground_contours(scene: &Scene<'_>, map: &Map, interval: Option<f64>) -> Optio
     let (low, high) = contours::heights(&terrain.vertices, &terrain.triangles, within)?;
     // That of the level curves where it gives a number that can be read.
     let fits = |d: &f64| (6.0..=2.0 * CONTOURS).contains(&((high - low) / d));
-    let interval = interval.filter(fits).unwrap_or_else(|| round_step((high - low) / CONTOURS));
-    let levels = super::scale::multiples(low, high, interval);
-    let found = contours::contours(&terrain.vertices, &terrain.triangles, within, &levels);
-    let mut strokes: Vec<(usize, lines::Stroke)> = Vec::new();
-    for (i, lines) in found.into_iter().enumerate() {
-        strokes.extend(lines.into_iter().map(|line| (i, map.stroke(line))));
+    let mut interval = interval.filter(fits).unwrap_or_else(|| round_step((high - low) / CONTOURS));
+    let mut levels;
+    let mut strokes: Vec<(usize, lines::Stroke)>;
+    loop {
+        levels = super::scale::multiples(low, high, interval);
+        let found = contours::contours(&terrain.vertices, &terrain.triangles, within, &levels);
+        let numbered = found.into_iter().enumerate();
+        strokes = numbered.flat_map(|(i, lines)| lines.into_iter().map(move |line| (i, map.stroke(line)))).collect();
+        let length: f64 = strokes.iter().flat_map(|(_, s)| s.points.windows(2)).map(|w| w[0].distance(w[1])).sum();
+        // On restless ground contours stand close however few levels there are.
+        if length * LEAST_SPACING <= map.size.x * map.size.y || levels.len() < 3 {
+            break;
+        }
+        interval = round_step(WIDER * interval);
     }
     let (at, strokes): (Vec<usize>, Vec<lines::Stroke>) = strokes.into_iter().unzip();
     let kept = lines::simplified(&strokes, CONTOUR_POINTS);

@@ -284,6 +284,7 @@ pub(super) mod testing {
             },
             warnings: vec![Warning {
                 code: "design-uncovered".into(),
+                kind: crate::report::WarningKind::Warning,
                 message: "3.25 square units of the design do not lie over the existing surface".into(),
                 details: BTreeMap::new(),
             }],

@@ -5,7 +5,7 @@
 
 use super::ground::{Daylight, FinishedFigures, GroundAreas, PadRow, SectionSlopes, StationRow, TerrainFigures};
 use super::volumes::{Depths, Volumes};
-use crate::model::{Design, Extent, LengthUnit, Slope};
+use crate::model::{Design, Extent, LengthUnit, Note, Slope};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -374,11 +374,31 @@ pub struct Warning {
     /// Stable name, listed in `docs/cli.md`.
     #[schemars(regex(pattern = r"^[a-z0-9]+(-[a-z0-9]+)*$"))]
     pub code: String,
+    /// `warning` where it is about the result itself, `note` where about how the input was read.
+    pub kind: WarningKind,
     /// The warning in words.
     pub message: String,
-    /// Figures beside the message, under keys of their own. `code` and `message` are taken.
+    /// Figures beside the message, under keys of their own. `code`, `kind` and `message` are taken.
     #[serde(flatten)]
     pub details: BTreeMap<&'static str, Detail>,
+}
+
+impl Warning {
+    /// What a note says, with figures beside it.
+    pub fn of(note: &Note, details: BTreeMap<&'static str, Detail>) -> Self {
+        let kind = if note.is_warning() { WarningKind::Warning } else { WarningKind::Note };
+        Self { code: note.code.to_owned(), kind, message: note.message.clone(), details }
+    }
+}
+
+/// How much a warning weighs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum WarningKind {
+    /// It is about the result itself.
+    Warning,
+    /// It tells how the input was read, or what was chosen.
+    Note,
 }
 
 /// A figure of a warning.

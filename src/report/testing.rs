@@ -94,6 +94,7 @@ pub(super) fn full() -> Report {
         finished: None,
         warnings: vec![Warning {
             code: "buried".into(),
+            kind: crate::report::WarningKind::Warning,
             message: "2 stretches of the line lie under the slope of another part".into(),
             details: [("count", Detail::Count(2)), ("depth", Detail::Number(13.0)), ("chain", Detail::Text("Rampe süd".into()))]
                 .into_iter()

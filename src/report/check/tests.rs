@@ -32,7 +32,7 @@ pub(in crate::report) fn report() -> CheckReport {
         format: "obj".into(),
         crs: None,
     };
-    let note = Warning { code: "obj-lines-ignored".into(), message: "3 lines\nx".into(), details: BTreeMap::new() };
+    let note = Warning::of(&crate::model::Note::new("obj-lines-ignored", "3 lines\nx"), BTreeMap::new());
     let mut report = CheckReport::new(input, &checked, &quality, vec![note]);
     report.tool.version = "0.0.0";
     report

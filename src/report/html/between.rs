@@ -67,7 +67,7 @@ fn summary(report: &BetweenReport, units: Units<'_>) -> Markup {
             } @else {
                 li.bad { "NOT complete: " (units.area(a.uncovered)) " of the design do not lie over the existing surface" }
             }
-            @if !report.warnings.is_empty() { li.warn { (noted(report.warnings.len())) } }
+            (noted(&report.warnings))
         }
         dl.tiles {
             (tile("Cut", "cut", v.cut, "³", None))

@@ -3,7 +3,7 @@
 use super::view::View;
 use crate::plot;
 use crate::report::page::{NOTE, printable};
-use crate::report::{Tool, Warning};
+use crate::report::{Tool, Warning, WarningKind};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -75,16 +75,28 @@ impl Page<'_> {
                     }
                     nav aria-label="Contents" {
                         ol {
-                            @if !self.warnings.is_empty() { li { a href="#warnings" { "Warnings and notes" } } }
+                            @if weighty(self.warnings) > 0 { li { a href="#warnings" { "Warnings" } } }
                             @for section in &self.sections { li { a href={ "#" (section.id) } { (section.title) } } }
+                            @if self.warnings.len() > weighty(self.warnings) { li { a href="#notes" { "Notes" } } }
                         }
                     }
                     main {
-                        @if !self.warnings.is_empty() { (warnings(self.warnings)) }
+                        @if weighty(self.warnings) > 0 {
+                            section.warnings id="warnings" aria-labelledby="warnings-title" {
+                                h2 id="warnings-title" { "Warnings" }
+                                (listed(self.warnings, WarningKind::Warning))
+                            }
+                        }
                         @for section in &self.sections {
                             section id=(section.id) aria-labelledby={ (section.id) "-title" } {
                                 h2 id={ (section.id) "-title" } { (section.title) }
                                 (section.body)
+                            }
+                        }
+                        @if self.warnings.len() > weighty(self.warnings) {
+                            section.notes id="notes" aria-labelledby="notes-title" {
+                                h2 id="notes-title" { "Notes" }
+                                (listed(self.warnings, WarningKind::Note))
                             }
                         }
                     }
@@ -111,21 +123,28 @@ impl Page<'_> {
     }
 }
 
-/// How many warnings there are, and where.
-pub(super) fn noted(count: usize) -> Markup {
-    html! { a href="#warnings" { (count) @if count == 1 { " warning or note" } @else { " warnings and notes" } } }
+/// Number of those that are about the result.
+fn weighty(warnings: &[Warning]) -> usize {
+    warnings.iter().filter(|warning| warning.kind == WarningKind::Warning).count()
 }
 
-fn warnings(warnings: &[Warning]) -> Markup {
+/// How many warnings there are, and where: an entry of the marks at the top, if there are any.
+pub(super) fn noted(warnings: &[Warning]) -> Markup {
+    let count = weighty(warnings);
     html! {
-        section.warnings id="warnings" aria-labelledby="warnings-title" {
-            h2 id="warnings-title" { "Warnings and notes" }
-            ul {
-                @for warning in warnings {
-                    li {
-                        pre { @for (i, line) in warning.message.lines().enumerate() { @if i > 0 { "\n" } (printable(line)) } }
-                        code.soft.small { (printable(&warning.code)) }
-                    }
+        @if count > 0 {
+            li.warn { a href="#warnings" { (count) @if count == 1 { " warning" } @else { " warnings" } } }
+        }
+    }
+}
+
+fn listed(warnings: &[Warning], kind: WarningKind) -> Markup {
+    html! {
+        ul {
+            @for warning in warnings.iter().filter(|warning| warning.kind == kind) {
+                li {
+                    pre { @for (i, line) in warning.message.lines().enumerate() { @if i > 0 { "\n" } (printable(line)) } }
+                    code.soft.small { (printable(&warning.code)) }
                 }
             }
         }

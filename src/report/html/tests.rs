@@ -81,7 +81,7 @@ fn headings(page: &str) -> Vec<String> {
 #[test]
 fn sections_stand_in_the_order_a_reader_wants() {
     let all = [
-        "Warnings and notes",
+        "Warnings",
         "Plan",
         "3D view",
         "Volumes",
@@ -100,9 +100,20 @@ fn sections_stand_in_the_order_a_reader_wants() {
     // What does not apply is left out.
     let without: Vec<&str> = all
         .into_iter()
-        .filter(|t| !["Warnings and notes", "Volumes", "Volumes by station", "Depths and areas", "Daylight line"].contains(t))
+        .filter(|t| !["Warnings", "Volumes", "Volumes by station", "Depths and areas", "Daylight line"].contains(t))
         .collect();
     assert_eq!(headings(&page(&least())), without);
+}
+
+/// What only tells how the input was read stands at the end and gives no alarm.
+#[test]
+fn notes_are_no_warnings() {
+    let mut report = on_ground();
+    report.warnings.iter_mut().for_each(|warning| warning.kind = crate::report::WarningKind::Note);
+    let page = page(&report);
+    let found = headings(&page);
+    assert_eq!(found.last().map(String::as_str), Some("Notes"));
+    assert!(!found.contains(&"Warnings".to_owned()) && !page.contains("href=\"#warnings\""));
 }
 
 #[test]
