@@ -1,7 +1,7 @@
 //! Surfaces of constant slope through a 3D line, for earthworks.
 //!
-//! Data flows one way: **read → validate → sheet → slope → mesh → write / report**. Each module uses only those that stand
-//! above it in this list; `pipeline` alone knows the order. See `docs/architecture.md`.
+//! Data flows one way: **read → validate → sheet → slope → mesh → ground → write / plot / report**. Each module uses only those
+//! that stand before it; `pipeline` alone knows the order. See `docs/architecture.md`.
 
 pub mod cli;
 pub mod formation;

@@ -1,6 +1,6 @@
 //! What differs between two reports, or between two surfaces.
 
-use super::watch::{Observer, Stopwatch, WRITING};
+use super::watch::{Named, Observer, Stopwatch, WRITING};
 use super::{Error, read_ground};
 use crate::overlay::{self, AREA_ROUNDING, Between, Depth, OverlayError, SAME_HEIGHT};
 use crate::read::terrain::TerrainOptions;
@@ -313,27 +313,4 @@ fn apart(cause: &OverlayError, first: &Source, second: &Source) -> DiffError {
         _ => "give two surfaces of the same place, in the same coordinates",
     };
     DiffError(format!("{what}\n  --> {}\n  --> {}{rest}\n   = help: {help}", first.label, second.label))
-}
-
-/// Notes with the name of the surface before them.
-struct Named<'a, 'b> {
-    watch: &'a Stopwatch<'b>,
-    name: &'static str,
-}
-
-impl Watch for Named<'_, '_> {
-    fn stage(&self, name: &'static str) {
-        self.watch.stage(name);
-    }
-
-    fn cancelled(&self) -> bool {
-        self.watch.cancelled()
-    }
-}
-
-impl Observer for Named<'_, '_> {
-    fn note(&self, note: &crate::model::Note) {
-        let named = crate::model::Note { code: note.code, message: format!("{}: {}", self.name, note.message) };
-        Observer::note(self.watch, &named);
-    }
 }

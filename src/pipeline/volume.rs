@@ -1,6 +1,6 @@
 //! Cut and fill between two surfaces that are given.
 
-use super::watch::{CHECKING, Observer, Stopwatch, WRITING};
+use super::watch::{CHECKING, Named, Observer, Stopwatch, WRITING};
 use super::{Error, figures, read_ground, units};
 use crate::kernel::sum::Sum;
 use crate::mesh::inside::inside;
@@ -10,7 +10,6 @@ use crate::read::terrain::TerrainOptions;
 use crate::read::{self, ColumnOrder, Pick, ReadError, ReadOptions, Source};
 use crate::report::between::{BetweenDepths, BetweenReference, BetweenReport, BetweenTiming, BetweenVolumes, MeshFigures};
 use crate::report::{Balance, Detail, Input, METHOD, METHOD_TEXT, ReportFormat, SCHEMA, SIGN_RULE, Tool, Warning};
-use crate::surface::Watch;
 use crate::validate;
 use crate::write::{Outputs, Target};
 use glam::DVec2;
@@ -132,7 +131,7 @@ pub fn volume(job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Erro
     let read = |path: &Path, pick: &Pick, unit, surface: Surface| {
         let options =
             TerrainOptions { csv_order: job.csv_order.clone(), pick: pick.clone(), unit: job.unit, ..TerrainOptions::default() };
-        read_ground(path, &options, unit, &Named { watch: &watch, surface })
+        read_ground(path, &options, unit, &Named { watch: &watch, name: surface.name() })
     };
     let design = design.map(|path| read(path, of_design, job.unit, Surface::Design)).transpose()?;
     let declared = job.unit.or(design.as_ref().and_then(|(_, source)| source.unit));
@@ -306,27 +305,4 @@ fn rings(path: &Path, unit: LengthUnit, watch: &Stopwatch<'_>) -> Result<(Terrai
 fn ends(chain: &Chain) -> String {
     let show = |p: Option<&glam::DVec3>| p.map_or_else(String::new, |p| format!("{}, {}", p.x, p.y));
     format!("it begins at {} and ends at {}", show(chain.vertices.first()), show(chain.vertices.last()))
-}
-
-/// Notes with the name of the surface before them.
-struct Named<'a, 'b> {
-    watch: &'a Stopwatch<'b>,
-    surface: Surface,
-}
-
-impl Watch for Named<'_, '_> {
-    fn stage(&self, name: &'static str) {
-        self.watch.stage(name);
-    }
-
-    fn cancelled(&self) -> bool {
-        self.watch.cancelled()
-    }
-}
-
-impl Observer for Named<'_, '_> {
-    fn note(&self, note: &Note) {
-        let named = Note { code: note.code, message: format!("{}: {}", self.surface.name(), note.message) };
-        Observer::note(self.watch, &named);
-    }
 }

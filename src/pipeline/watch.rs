@@ -94,6 +94,28 @@ impl Observer for Stopwatch<'_> {
     }
 }
 
+/// Passes on what is seen of one of several inputs: notes with its name before them.
+pub(super) struct Named<'a, 'b> {
+    pub(super) watch: &'a Stopwatch<'b>,
+    pub(super) name: &'static str,
+}
+
+impl Watch for Named<'_, '_> {
+    fn stage(&self, name: &'static str) {
+        self.watch.stage(name);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.watch.cancelled()
+    }
+}
+
+impl Observer for Named<'_, '_> {
+    fn note(&self, note: &Note) {
+        Observer::note(self.watch, &Note { code: note.code, message: format!("{}: {}", self.name, note.message) });
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
