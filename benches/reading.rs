@@ -9,8 +9,11 @@ use slopegen::terrain;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Instant;
+use tiff::encoder::colortype::Gray64Float;
+use tiff::encoder::{Compression, TiffEncoder};
+use tiff::tags::Tag;
 
-const CASES: [&str; 7] = ["ply", "obj", "dxf", "asc", "csv", "xyz", "xml"];
+const CASES: [&str; 10] = ["ply", "obj", "dxf", "asc", "csv", "xyz", "xml", "tif", "las", "laz"];
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
@@ -38,7 +41,7 @@ fn height(x: f64, y: f64) -> f64 {
     100.0 + 20.0 * (x / 173.0).sin() + 15.0 * (y / 131.0).cos() + 0.7 * (x / 7.0).sin() * (y / 9.0).sin()
 }
 
-/// Writes ground of about `count` vertices on a jittered grid of steps of 2 (a plain grid as `asc`).
+/// Writes ground of about `count` vertices on a jittered grid of steps of 2 (a plain grid as `asc` and `tif`, points of class 2 as `las` and `laz`).
 fn write(case: &str, count: usize, path: &Path) {
     let n = (count as f64).sqrt().round() as usize;
     let mut state = 7_u64;
@@ -115,6 +118,33 @@ fn write(case: &str, count: usize, path: &Path) {
                 }
                 text.push('\n');
             }
+        }
+        "tif" => {
+            let heights: Vec<f64> = points.iter().map(|p| p[2]).collect();
+            let mut file = std::io::Cursor::new(&mut bytes);
+            let mut encoder = TiffEncoder::new(&mut file)
+                .expect("a header")
+                .with_compression(Compression::Deflate(tiff::encoder::compression::DeflateLevel::Balanced));
+            let mut image = encoder.new_image::<Gray64Float>(n as u32, n as u32).expect("an image");
+            let tags = image.encoder();
+            tags.write_tag(Tag::ModelPixelScaleTag, &[2.0, 2.0, 0.0][..]).expect("a tag");
+            tags.write_tag(Tag::ModelTiepointTag, &[0.0, 0.0, 0.0, 500_000.0, 5_402_000.0, 0.0][..]).expect("a tag");
+            image.write_data(&heights).expect("the heights");
+        }
+        "las" | "laz" => {
+            let mut builder = las::Builder::from((1, 4));
+            builder.point_format = las::point::Format::new(6).expect("a point format");
+            builder.point_format.is_compressed = case == "laz";
+            let axis = |offset| las::Transform { scale: 1e-4, offset };
+            builder.transforms = las::Vector { x: axis(500_000.0), y: axis(5_400_000.0), z: axis(0.0) };
+            let file = std::io::Cursor::new(Vec::new());
+            let mut writer = las::Writer::new(file, builder.into_header().expect("a header")).expect("a writer");
+            for [x, y, z] in points {
+                let classification = las::point::Classification::Ground;
+                let point = las::Point { x, y, z, classification, gps_time: Some(0.0), ..Default::default() };
+                writer.write_point(point).expect("a point");
+            }
+            bytes = writer.into_inner().expect("the cloud").into_inner();
         }
         _ => {
             let separator = if case == "csv" { ',' } else { ' ' };
