@@ -124,6 +124,7 @@ fn run(name: &str, count: usize) {
         levels: Vec::new(),
         companion: None,
         frame: None,
+        joggle: None,
     };
     let stages = Stages::default();
     let start = Instant::now();

@@ -91,8 +91,7 @@ fn random_lines() {
         let extent = [Extent::Elevation(low - 3.0), Extent::Distance(4.0), Extent::Height(2.0)][r.below(3)];
         built(&mut failed, &[open(&points)], &Design { tolerance: 0.01, ..design(k, extent) });
     }
-    // Lines that just touch the slope of another part of themselves, between buried and free: refused, not built wrongly.
-    assert!(failed.len() <= 3, "{} failed, first:\n{}", failed.len(), failed[..failed.len().min(5)].join("\n"));
+    none(&failed);
 }
 
 /// Skylines: columns of whole widths and heights on a base line.

@@ -134,7 +134,17 @@ impl<'a> Site<'a> {
 
     fn attempt(&self, designs: &[Design], whole: bool, options: &Options, watch: &dyn Watch) -> Result<Ground, GroundError> {
         let designs = self.in_common(designs);
-        let surfaces = self.surfaces(&designs, watch)?;
+        let tolerance = designs.iter().map(|design| design.tolerance).fold(f64::INFINITY, f64::min);
+        surface::in_spite_of_touching(tolerance, GroundError::is_flaw, |joggle| {
+            let designs: Vec<Design> = designs.iter().map(|design| Design { joggle, ..design.clone() }).collect();
+            let mut ground = self.once(&designs, whole, options, watch)?;
+            ground.notes.extend(joggle.map(surface::joggle_note));
+            Ok(ground)
+        })
+    }
+
+    fn once(&self, designs: &[Design], whole: bool, options: &Options, watch: &dyn Watch) -> Result<Ground, GroundError> {
+        let surfaces = self.surfaces(designs, watch)?;
         let go_on = |stage| {
             watch.stage(stage);
             if watch.cancelled() { Err(SurfaceError::Cancelled) } else { Ok(()) }
@@ -151,10 +161,10 @@ impl<'a> Site<'a> {
         let mut works = Flood::run(&shape, &patch, whole, &mut feeder);
         let fed = feeder.finish();
         self.check_covered(&shape, &fed, options)?;
-        check_open(&shape, &works, &designs, options)?;
+        check_open(&shape, &works, designs, options)?;
         go_on("daylight")?;
         let mut nodes = Nodes::new(&shape, &patch, &works);
-        notes.extend(standing(&shape, &works, &designs));
+        notes.extend(standing(&shape, &works, designs));
         let assemble = |works: &Works, nodes: &Nodes| {
             let cut = |what| move |cause| GroundError::Cut { what, cause };
             let trimmed = Trimmed::new(&shape, &patch, works, nodes, whole).map_err(cut("the design"))?;
@@ -167,7 +177,7 @@ impl<'a> Site<'a> {
             go_on("finished ground")?;
             figures::ground(&figures::Found {
                 line: self.line,
-                designs: &designs,
+                designs,
                 terrain: &self.terrain,
                 surfaces: &surfaces,
                 shape: &shape,

@@ -122,3 +122,14 @@ pub enum GroundError {
     #[error("{0}")]
     Stations(#[from] TooManyStations),
 }
+
+impl GroundError {
+    /// Whether moving the line a little may help.
+    pub(crate) fn is_flaw(&self) -> bool {
+        match self {
+            Self::Surface(error) => error.is_flaw(),
+            Self::Cut { .. } | Self::Unsound { .. } | Self::OpenMesh { .. } => true,
+            _ => false,
+        }
+    }
+}

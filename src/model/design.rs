@@ -63,4 +63,32 @@ pub struct Design {
     pub companion: Option<Slope>,
     /// The local frame to work in; `None`: one chosen for the line.
     pub frame: Option<Frame>,
+    /// Whether the line's heights are moved a little, so that parts of it that just touch no longer do.
+    pub joggle: Option<Joggle>,
+}
+
+/// Small shifts of the line's vertices in height, each of its own but the same in every run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Joggle {
+    /// The greatest shift, up or down (length units).
+    pub most: f64,
+    /// Which of many sets of shifts.
+    pub set: u64,
+}
+
+impl Joggle {
+    /// The shift of a vertex at a place, between `-most` and `most`: a hash of its bits, so it depends on nothing else.
+    pub fn shift(self, x: f64, y: f64) -> f64 {
+        let mut hash = self.set;
+        for bits in [x.to_bits(), y.to_bits()] {
+            // The finalizer of SplitMix64 (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators").
+            hash = (hash ^ bits).wrapping_add(0x9e37_79b9_7f4a_7c15);
+            hash = (hash ^ (hash >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            hash = (hash ^ (hash >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            hash ^= hash >> 31;
+        }
+        // 53 bits, as many as a double holds.
+        let unit = (hash >> 11) as f64 / (1_u64 << 53) as f64;
+        self.most * (2.0 * unit - 1.0)
+    }
 }

@@ -11,7 +11,7 @@ pub mod tin;
 pub mod unit;
 
 pub use bulking::{Bulking, Share, ShareError};
-pub use design::{Design, Extent, Sheet, Side};
+pub use design::{Design, Extent, Joggle, Sheet, Side};
 pub use line::{Axis, Breakline, Chain, Line, Place, Role};
 pub use notation::SlopeError;
 pub use note::{Defect, Defects, Note};

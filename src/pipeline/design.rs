@@ -124,6 +124,7 @@ impl Wishes {
             levels: self.levels.clone(),
             companion: None,
             frame: None,
+            joggle: None,
         })
     }
 

@@ -78,6 +78,7 @@ pub(super) fn kit(name: &str, points: &[[f64; 3]], closed: bool, width: Option<f
         tolerance: 0.01,
         companion: None,
         frame: None,
+        joggle: None,
     };
     let (down, up) = (site.end(slope, Sheet::Falling, 0.01), site.end(slope, Sheet::Rising, 0.01));
     let designs = [design(Sheet::Falling, down), design(Sheet::Rising, up)];

@@ -3,7 +3,7 @@
 use super::noding::{Segments, weld};
 use super::simplify::{self, Chord};
 use crate::kernel::frame::Frame;
-use crate::model::{Design, Line, Role, Sheet, Side};
+use crate::model::{Design, Extent, Joggle, Line, Role, Sheet, Side};
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
@@ -15,6 +15,9 @@ const CHORD_SPACING: f64 = 1e-6;
 
 /// A vertex displaced by less than this (length units) keeps its given coordinates: it counts as collinear, not as simplified.
 pub const COLLINEAR: f64 = 1e-9;
+
+/// A joggle may use at most this part of what an edge lacks to the steepest chord.
+const JOGGLE_SHARE: f64 = 0.25;
 
 /// Chords may be as steep as this part of the slope, unless the given segments are steeper.
 const STEEPEST_CHORD: f64 = 1.0 - 1e-9;
@@ -109,11 +112,44 @@ impl Network {
         let (mut points, of_vertex) = weld(line, &frame, sign);
         let segments = Segments::new(line, &of_vertex).noded(&mut points, line);
         let pieces = pieces(line, design, &segments);
-        Self { frame, sign, nodes: points, edges: Vec::new(), simplified: 0, collinear: 0, simplified_max: 0.0 }.with_edges(
-            &pieces,
-            [design.slope.ratio(), design.companion.unwrap_or(design.slope).ratio()],
-            bound,
-        )
+        let slopes = [design.slope, design.companion.unwrap_or(design.slope)].map(|slope| slope.ratio());
+        let mut network = Self { frame, sign, nodes: points, edges: Vec::new(), simplified: 0, collinear: 0, simplified_max: 0.0 }
+            .with_edges(&pieces, slopes, bound);
+        if let Some(joggle) = design.joggle {
+            network.joggle(joggle, slopes[0].min(slopes[1]), design.extent);
+        }
+        network
+    }
+
+    /// Moves the nodes in height, so little that every edge stays flatter than `flattest`. Nodes where the slope is to end stay.
+    fn joggle(&mut self, joggle: Joggle, flattest: f64, extent: Extent) {
+        let mut most = vec![joggle.most; self.nodes.len()];
+        for edge in &self.edges {
+            let (a, b) = (self.nodes[edge.a as usize], self.nodes[edge.b as usize]);
+            let room = flattest * a.truncate().distance(b.truncate()) - (b.z - a.z).abs();
+            for node in [edge.a, edge.b] {
+                most[node as usize] = most[node as usize].min(JOGGLE_SHARE * room.max(0.0));
+            }
+        }
+        let fixed = |z: f64| matches!(extent, Extent::Elevation(end) if (self.sign * z - end).abs() <= joggle.most);
+        let shifts: Vec<f64> = self
+            .nodes
+            .iter()
+            .zip(most)
+            .map(|(p, most)| if fixed(p.z) { 0.0 } else { self.sign * Joggle { most, ..joggle }.shift(p.x, p.y) })
+            .collect();
+        for (node, shift) in self.nodes.iter_mut().zip(&shifts) {
+            node.z += shift;
+        }
+        for edge in &mut self.edges {
+            let [a, b] = [edge.a, edge.b].map(|n| (self.nodes[n as usize].truncate(), shifts[n as usize]));
+            let length = a.0.distance(b.0);
+            for inner in &mut edge.inner {
+                inner.point.z += a.1 + (b.1 - a.1) * (inner.s / length);
+            }
+        }
+        self.simplified += shifts.iter().filter(|&&shift| shift != 0.0).count();
+        self.simplified_max += shifts.iter().fold(0.0, |most, shift| f64::max(most, shift.abs()));
     }
 
     /// Height in the world of a height of the falling sheet.

@@ -8,12 +8,14 @@ mod feet;
 mod flats;
 mod formation;
 mod solve;
+mod touching;
 
 pub use buried::Buried;
 pub use certificate::Certificate;
 pub(crate) use certificate::{CONE_BOUND, MEASURABLE_HEIGHT, STRIP_BOUND};
 pub use curves::Mark;
 pub use feet::Foot;
+pub(crate) use touching::{in_spite_of_touching, note as joggle_note};
 
 use crate::kernel::sum::Sum;
 use crate::mesh::check::HalfEdges;
@@ -243,7 +245,11 @@ pub struct Surface {
 /// # Errors
 /// See [`SurfaceError`]; a surface whose certificate fails is an error, never a result.
 pub fn build(line: &Line, design: &Design, reference: Option<f64>, watch: &dyn Watch) -> Result<Surface, SurfaceError> {
-    made(line, design, Some(&Plane { reference }), watch)
+    in_spite_of_touching(design.tolerance, SurfaceError::is_flaw, |joggle| {
+        let mut surface = made(line, &Design { joggle, ..design.clone() }, Some(&Plane { reference }), watch)?;
+        surface.notes.extend(joggle.map(joggle_note));
+        Ok(surface)
+    })
 }
 
 /// The same surface with its certificate, but without line work, areas and volumes: for those who cut it first.

@@ -66,6 +66,7 @@ pub(crate) fn design(k: f64, extent: Extent) -> Design {
         levels: Vec::new(),
         companion: None,
         frame: None,
+        joggle: None,
     }
 }
 
