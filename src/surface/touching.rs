@@ -1,0 +1,51 @@
+//! Lines whose parts touch exactly.
+//!
+//! A part of the line that just reaches the slope of another, with nothing of it buried, lies between two surfaces of different
+//! make-up, and rounding cannot tell on which side. The checks refuse such a surface. Then the line is built again with its
+//! heights moved by a small part of the tolerance, each by its own amount, so that nothing touches exactly any more. What comes
+//! of it passes the same checks against the line as given. ("Joggled input", as the program Qhull calls it.)
+
+use super::SurfaceError;
+use crate::model::{Joggle, Note};
+
+/// The shifts tried, one after the other, as shares of the tolerance.
+const SHARES: [f64; 6] = [1e-3, 1e-3, 1e-2, 1e-2, 1e-1, 1e-1];
+
+/// Smaller shifts (length units) drown in what counts as touching.
+const LEAST_SHIFT: f64 = 5e-7;
+
+impl SurfaceError {
+    /// Whether moving the line a little may help.
+    pub(crate) fn is_flaw(&self) -> bool {
+        matches!(self, Self::Unclosed { .. } | Self::Unsound { .. })
+    }
+}
+
+/// Builds on the line as given, and where that fails with a flaw, on joggled ones. Another error of a joggled line tells nothing
+/// of the given one.
+///
+/// # Errors
+/// That of the line as given.
+pub(crate) fn in_spite_of_touching<T, E>(
+    tolerance: f64,
+    is_flaw: impl Fn(&E) -> bool,
+    build: impl Fn(Option<Joggle>) -> Result<T, E>,
+) -> Result<T, E> {
+    let failed = match build(None) {
+        Err(error) if is_flaw(&error) => error,
+        done => return done,
+    };
+    let shifts = SHARES.iter().zip(1..).map(|(share, set)| Joggle { most: share * tolerance, set });
+    shifts.filter(|joggle| joggle.most >= LEAST_SHIFT).find_map(|joggle| build(Some(joggle)).ok()).ok_or(failed)
+}
+
+/// What is to be told of a joggled line.
+pub(crate) fn note(joggle: Joggle) -> Note {
+    Note::new(
+        "line-joggled",
+        format!(
+            "parts of the line touch each other's slopes exactly: its vertices were moved by up to {:.1e} in height to tell them apart",
+            joggle.most
+        ),
+    )
+}
