@@ -9,9 +9,14 @@ use common::oracle::Polyline;
 use slopegen::model::{CurveKind, Design, Extent, Side};
 use slopegen::surface;
 
-fn built(failed: &mut Vec<String>, lines: &[Polyline], wanted: &Design) {
-    if let Err(e) = surface::build(&line(lines), wanted, None, &()) {
-        failed.push(format!("{:?} {:?} {:?}: {}", lines[0].points, wanted.extent, wanted.side_of_rings, e));
+/// Builds; says whether the heights had to be joggled for it.
+fn built(failed: &mut Vec<String>, lines: &[Polyline], wanted: &Design) -> bool {
+    match surface::build(&line(lines), wanted, None, &()) {
+        Ok(surface) => surface.notes.iter().any(|note| note.code == "line-joggled"),
+        Err(e) => {
+            failed.push(format!("{:?} {:?} {:?}: {}", lines[0].points, wanted.extent, wanted.side_of_rings, e));
+            false
+        }
     }
 }
 
@@ -72,7 +77,7 @@ fn floors_that_just_vanish() {
 
 #[test]
 fn random_lines() {
-    let mut failed = Vec::new();
+    let (mut failed, mut joggled) = (Vec::new(), 0);
     for seed in 0..1500 {
         let r = &mut Random::new(seed);
         let k = [0.5, 1.0][r.below(2)];
@@ -89,9 +94,11 @@ fn random_lines() {
         }
         let low = points.iter().fold(0.0_f64, |m, p| m.min(p[2]));
         let extent = [Extent::Elevation(low - 3.0), Extent::Distance(4.0), Extent::Height(2.0)][r.below(3)];
-        built(&mut failed, &[open(&points)], &Design { tolerance: 0.01, ..design(k, extent) });
+        joggled += usize::from(built(&mut failed, &[open(&points)], &Design { tolerance: 0.01, ..design(k, extent) }));
     }
     none(&failed);
+    // Lines that just touch the slope of another part of themselves, between buried and free.
+    assert!((1..=3).contains(&joggled), "{joggled} lines were joggled");
 }
 
 /// Skylines: columns of whole widths and heights on a base line.
@@ -140,5 +147,23 @@ fn level_curves_are_closed() {
         }
         let loose = ends.values().filter(|&&n| n % 2 == 1).count();
         assert_eq!(loose, 0, "{}: level curves have {loose} loose ends", case.name);
+    }
+}
+
+/// A bend lies exactly on the slope of the beginning of the line. What is built on joggled heights is within the tolerance of the
+/// line as given.
+#[test]
+fn a_joggled_line_keeps_the_tolerance() {
+    let (k, most) = (0.5, 1e-3);
+    let points = [[0.0; 3], [2.0, 0.0, -0.4], [2.0, -2.0, -0.8], [-14.0, -2.0, -0.8 - 1.6], [-14.0, 12.0, -0.8 - 1.6]];
+    let lines = [open(&points)];
+    let wanted = Design { tolerance: 0.01, ..design(k, Extent::Distance(4.0)) };
+    let surface = common::build::build(&line(&lines), &wanted);
+    assert!(surface.notes.iter().any(|note| note.code == "line-joggled"), "nothing touches");
+    assert!(surface.simplified_max > 0.0 && surface.simplified_max <= most, "{}", surface.simplified_max);
+    for p in &surface.tin.vertices {
+        let p = surface.tin.frame.to_world(*p);
+        let height = common::oracle::height(&lines, k, false, p.x, p.y);
+        assert!((p.z - height).abs() <= wanted.tolerance, "{p}: {height}");
     }
 }

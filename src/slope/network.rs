@@ -113,8 +113,9 @@ impl Network {
         let segments = Segments::new(line, &of_vertex).noded(&mut points, line);
         let pieces = pieces(line, design, &segments);
         let slopes = [design.slope, design.companion.unwrap_or(design.slope)].map(|slope| slope.ratio());
-        let mut network = Self { frame, sign, nodes: points, edges: Vec::new(), simplified: 0, collinear: 0, simplified_max: 0.0 }
-            .with_edges(&pieces, slopes, bound);
+        let mut network =
+            Self { frame, sign, nodes: points, edges: Vec::new(), simplified: 0, collinear: 0, simplified_max: 0.0 }
+                .with_edges(&pieces, slopes, bound);
         if let Some(joggle) = design.joggle {
             network.joggle(joggle, slopes[0].min(slopes[1]), design.extent);
         }
