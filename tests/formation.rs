@@ -407,3 +407,28 @@ fn real_centre_lines() {
     }
     assert!(count >= 3, "only {count} pairs");
 }
+
+/// A road whose slopes end at an elevation between its ends: where its edge goes through that elevation, slope and platform share
+/// a vertex. No open edge of the mesh has a vertex between its ends.
+#[test]
+fn slopes_that_end_along_a_road_leave_no_gap() {
+    let points: Vec<[f64; 3]> =
+        (0..40).map(|i| f64::from(i)).map(|i| [9.5 * i, 20.0 * (0.2 * i).sin(), 3.0 * (0.13 * i).sin()]).collect();
+    for (left, right) in [(0.0, 0.0), (0.05, 0.02)] {
+        let line = wide(&[open(&points)], &road(7.0, left, right));
+        for end in [-2.5, -1.0, 0.0, 0.7, 1.3, 2.0, 2.9] {
+            common::build::on_both_sheets(&line, &design(2.0 / 3.0, Extent::Elevation(end)), |surface| {
+                let open = common::measure::open_edges("road", surface);
+                let plan = |v: u32| surface.tin.vertices[v as usize].truncate();
+                for &[a, b] in &open {
+                    let (p, q) = (plan(a), plan(b));
+                    for &[v, _] in open.iter().filter(|e| ![a, b].contains(&e[0])) {
+                        let t = (plan(v) - p).dot(q - p) / (q - p).length_squared();
+                        let off = (plan(v) - p).perp_dot(q - p).abs() / q.distance(p);
+                        assert!(!(0.0..=1.0).contains(&t) || off > 1e-6, "{end}: {} lies between {p} and {q}", plan(v));
+                    }
+                }
+            });
+        }
+    }
+}

@@ -4,10 +4,10 @@
 //! every facet triangulates its own cell in terms of those numbers. Sharing is by number, never by coordinates.
 
 use super::arcs::{Arcs, Piece};
-use super::closure::{Closure, VertexId};
+use super::closure::{Closure, Knot, VertexId};
 use super::facet::{END, Facet, FacetId, Kind, Lateral};
 use super::levels::Code;
-use super::network::Given;
+use super::network::{Given, twin};
 use super::polygon::{self, Corner};
 use super::refine::{Cut, REACH_SNAP};
 use super::trim::Sheet;
@@ -38,7 +38,7 @@ pub struct EdgePoint {
     pub s: f64,
     /// The mesh vertex.
     pub id: PointId,
-    /// The given vertex, unless it is only a crossing with a level.
+    /// The given vertex, unless it is only a crossing with a level or where the edge is buried.
     pub given: Option<Given>,
 }
 
@@ -205,8 +205,23 @@ impl<'a> Shared<'a> {
                 }
                 before = (s, point);
             }
+            list.extend(self.entries(e as u32, length));
+            list.sort_by(|p, q| p.s.total_cmp(&q.s).then(p.id.cmp(&q.id)));
+            list.dedup_by_key(|p| p.id);
             self.edge_points.push(list);
         }
+    }
+
+    /// Where edge `e` goes under the slope of another part or beyond the end: a platform on its other side has a vertex there.
+    fn entries(&self, e: u32, length: f64) -> impl Iterator<Item = EdgePoint> {
+        let nodes = self.sheet.network.nodes.len() as PointId;
+        [2 * e, 2 * e + 1].into_iter().flat_map(move |h| {
+            let at_entry = move |k: &&Knot| (k.left == twin(h)) != (k.right == twin(h));
+            let s = move |tau: f64| if h & 1 == 0 { tau } else { length - tau };
+            let knots = self.closure.knots[h as usize].iter().filter(at_entry);
+            let points = knots.map(move |k| EdgePoint { s: s(k.tau), id: self.arcs.vertex(k.vertex), given: None });
+            points.filter(move |p| p.id >= nodes)
+        })
     }
 
     fn cell(&self, f: FacetId, base: PointId) -> Cell {
@@ -343,7 +358,8 @@ impl<'a> Shared<'a> {
         ring.push(corner(begin.0, begin.1, 0.0, true, cell));
         let points = &self.edge_points[(h / 2) as usize];
         let foot = |p: &EdgePoint| if h & 1 == 0 { p.s } else { facet.tau_max - p.s };
-        let mut on_edge: Vec<&EdgePoint> = points.iter().filter(|&p| foot(p) > first.tau && foot(p) < last.tau).collect();
+        let within = |p: &&EdgePoint| foot(p) > first.tau && foot(p) < last.tau && p.id != first.id && p.id != last.id;
+        let mut on_edge: Vec<&EdgePoint> = points.iter().filter(within).collect();
         if h & 1 == 1 {
             on_edge.reverse();
         }
