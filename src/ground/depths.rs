@@ -2,14 +2,11 @@
 
 use crate::mesh::drape::Drape;
 use crate::model::{Terrain, Tin};
-use glam::DVec2;
 
 /// Design minus ground height at each vertex of the design: positive is fill, negative is cut; nought beside the ground.
 /// Both must be in the same frame.
 pub fn depths(design: &Tin, terrain: &Terrain) -> Vec<f64> {
-    let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let within = design.vertices.iter().fold(empty, |(lo, hi), v| (lo.min(v.truncate()), hi.max(v.truncate())));
-    let ground = Drape::new(&terrain.vertices, &terrain.triangles, Some(within));
+    let ground = Drape::new(&terrain.vertices, &terrain.triangles, Some(design.plan_box()));
     design.vertices.iter().map(|v| ground.at(v.truncate()).map_or(0.0, |(z, _)| v.z - z)).collect()
 }
 
@@ -18,7 +15,7 @@ mod tests {
     use super::*;
     use crate::kernel::frame::Frame;
     use crate::model::Part;
-    use glam::DVec3;
+    use glam::{DVec2, DVec3};
 
     #[test]
     fn above_is_fill_below_is_cut_beside_is_nought() {

@@ -252,24 +252,16 @@ impl SubAssign for Dd {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::testing::Random;
 
     /// A few units of 2⁻¹⁰⁴ ≈ 4.9e-32.
     const RELATIVE: f64 = 2.0e-31;
 
-    /// Uniform bits in [0, 1) from Weyl's sequence scrambled as in SplitMix64.
-    fn random(state: &mut u64) -> f64 {
-        *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = *state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
     /// A number with all of its 106 bits in use, of either sign, between 1e-3 and 1e3 in magnitude.
-    fn random_dd(state: &mut u64) -> Dd {
-        let sign = if random(state) < 0.5 { -1.0 } else { 1.0 };
-        let hi = sign * 10f64.powf(6.0 * random(state) - 3.0);
-        Dd::sum(hi, hi * (random(state) - 0.5) * f64::EPSILON)
+    fn any(random: &mut Random) -> Dd {
+        let sign = if random.unit() < 0.5 { -1.0 } else { 1.0 };
+        let hi = sign * 10f64.powf(6.0 * random.unit() - 3.0);
+        Dd::sum(hi, hi * (random.unit() - 0.5) * f64::EPSILON)
     }
 
     /// The number times 10³⁰, rounded down, in integers only: an independent reading of both words.
@@ -319,9 +311,9 @@ mod tests {
 
     #[test]
     fn field_identities_on_random_numbers() {
-        let state = &mut 1;
+        let random = &mut Random::new(1);
         for _ in 0..20_000 {
-            let (a, b, c) = (random_dd(state), random_dd(state), random_dd(state));
+            let (a, b, c) = (any(random), any(random), any(random));
             let near = |x: Dd, y: Dd, size: Dd| assert!((x - y).abs().to_f64() <= RELATIVE * size.abs().to_f64(), "{x:?} {y:?}");
             near(a * b / b, a, a);
             near(a * b.hi / b.hi, a, a);

@@ -1,8 +1,12 @@
-//! Numbers only: local frame, sums, higher precision, orientation.
+//! Numbers only: local frame, sums, higher precision, orientation, boxes and trees of them.
 
 pub mod box_tree;
 pub mod dd;
 pub mod frame;
 pub mod orientation;
+pub mod plan_box;
 pub mod segment_tree;
 pub mod sum;
+#[cfg(test)]
+pub(crate) mod testing;
+mod tree;

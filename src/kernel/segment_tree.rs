@@ -1,34 +1,8 @@
 //! Which segments come near each other: a tree of boxes over segments in the order of their chains.
 
+use super::plan_box::PlanBox;
+use super::tree::{LEAF, Tree};
 use glam::DVec2;
-
-/// An upright box.
-#[derive(Clone, Copy, Debug)]
-struct Bounds {
-    lo: DVec2,
-    hi: DVec2,
-}
-
-impl Bounds {
-    const EMPTY: Self = Self { lo: DVec2::INFINITY, hi: DVec2::NEG_INFINITY };
-
-    fn with(self, p: DVec2) -> Self {
-        Self { lo: self.lo.min(p), hi: self.hi.max(p) }
-    }
-
-    fn join(self, other: &Self) -> Self {
-        Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
-    }
-
-    fn meets(&self, other: &Self) -> bool {
-        self.lo.cmple(other.hi).all() && other.lo.cmple(self.hi).all()
-    }
-
-    /// Whether the ray from `p` towards +x may meet the set.
-    fn meets_ray(&self, p: DVec2) -> bool {
-        self.lo.y <= p.y && p.y <= self.hi.y && self.hi.x >= p.x
-    }
-}
 
 /// A box along a direction of its own: long parallel strokes, whose upright boxes all overlap, stay apart in theirs.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +18,7 @@ const ROUNDING: f64 = 1e-15;
 
 impl Tilted {
     /// A box about the ends of segments, along the longest of them.
-    fn around(segments: &[(DVec2, DVec2)], bounds: &Bounds) -> Self {
+    fn around(segments: &[(DVec2, DVec2)], bounds: &PlanBox) -> Self {
         let longest = segments
             .iter()
             .map(|(a, b)| b - a)
@@ -84,15 +58,10 @@ impl Tilted {
     }
 }
 
-/// Segments of a leaf. Small: neighbours on a line always meet, and a leaf is compared with its neighbour pair by pair.
-const LEAF: usize = 4;
-
 /// A binary tree over segments. Neighbours on a chain lie near each other, so runs of them make good boxes.
 #[derive(Debug)]
 pub struct SegmentTree {
-    segments: Vec<Bounds>,
-    /// Node `k` has the children `2k` and `2k + 1`; the leaves are the second half.
-    nodes: Vec<Bounds>,
+    tree: Tree,
     /// Tilted boxes of the leaves and of nodes up to [`TILTED`] segments.
     tilted: Vec<Option<Tilted>>,
 }
@@ -103,24 +72,16 @@ const TILTED: usize = 256;
 impl SegmentTree {
     /// A tree over segments given by their ends.
     pub fn new(ends: &[(DVec2, DVec2)]) -> Self {
-        let segments: Vec<Bounds> = ends.iter().map(|&(a, b)| Bounds::EMPTY.with(a).with(b)).collect();
-        let leaves = segments.len().div_ceil(LEAF).next_power_of_two();
-        let mut nodes = vec![Bounds::EMPTY; 2 * leaves];
-        for (leaf, run) in segments.chunks(LEAF).enumerate() {
-            nodes[leaves + leaf] = run.iter().fold(Bounds::EMPTY, |all, one| all.join(one));
-        }
-        for k in (1..leaves).rev() {
-            nodes[k] = nodes[2 * k].join(&nodes[2 * k + 1]);
-        }
-        let mut tilted = vec![None; 2 * leaves];
-        let (mut size, mut first) = (LEAF, leaves);
+        let tree = Tree::new(ends.iter().map(|&(a, b)| PlanBox::of([a, b])).collect());
+        let mut tilted = vec![None; 2 * tree.leaves()];
+        let (mut size, mut first) = (LEAF, tree.leaves());
         while size <= TILTED && first > 0 {
             for (i, run) in ends.chunks(size).enumerate() {
-                tilted[first + i] = Some(Tilted::around(run, &nodes[first + i]));
+                tilted[first + i] = Some(Tilted::around(run, tree.node(first + i)));
             }
             (size, first) = (2 * size, first / 2);
         }
-        Self { segments, nodes, tilted }
+        Self { tree, tilted }
     }
 
     fn apart(&self, m: usize, n: usize) -> bool {
@@ -128,73 +89,26 @@ impl SegmentTree {
             (Some(m), Some(n)) => !m.meets(n),
             _ => false,
         };
-        !self.nodes[m].meets(&self.nodes[n]) || tilted_apart()
-    }
-
-    fn run(&self, node: usize) -> std::ops::Range<usize> {
-        let leaf = node - self.nodes.len() / 2;
-        leaf * LEAF..((leaf + 1) * LEAF).min(self.segments.len())
+        !self.tree.node(m).meets(self.tree.node(n)) || tilted_apart()
     }
 
     /// Calls `visit` once for every pair `i < j` of segments whose bounds meet, until it returns `false`.
-    pub fn pairs(&self, mut visit: impl FnMut(usize, usize) -> bool) {
-        let leaves = self.nodes.len() / 2;
-        let mut stack = vec![(1, 1)];
-        while let Some((m, n)) = stack.pop() {
-            if m != n && self.apart(m, n) {
-                continue;
-            }
-            if m < leaves {
-                // All leaves are equally deep, so both nodes are of one level.
-                let (a, b, c, d) = (2 * m, 2 * m + 1, 2 * n, 2 * n + 1);
-                if m == n {
-                    stack.extend([(b, b), (a, b), (a, a)]);
-                } else {
-                    stack.extend([(b, d), (b, c), (a, d), (a, c)]);
-                }
-                continue;
-            }
-            for i in self.run(m) {
-                for j in self.run(n) {
-                    if i < j && self.segments[i].meets(&self.segments[j]) && !visit(i, j) {
-                        return;
-                    }
-                }
-            }
-        }
+    pub fn pairs(&self, visit: impl FnMut(usize, usize) -> bool) {
+        self.tree.pairs(|m, n| self.apart(m, n), visit);
     }
 
     /// Calls `visit` for every segment whose bounds come within `reach` of `p`.
-    pub fn near(&self, p: DVec2, reach: f64, mut visit: impl FnMut(usize)) {
-        let leaves = self.nodes.len() / 2;
-        let around = Bounds { lo: p - reach, hi: p + reach };
-        let mut stack = vec![1];
-        while let Some(n) = stack.pop() {
-            if !self.nodes[n].meets(&around) || self.tilted[n].is_some_and(|t| !t.comes_near(p, reach)) {
-                continue;
-            }
-            if n < leaves {
-                stack.extend([2 * n + 1, 2 * n]);
-            } else {
-                self.run(n).filter(|&i| self.segments[i].meets(&around)).for_each(&mut visit);
-            }
-        }
+    pub fn near(&self, p: DVec2, reach: f64, visit: impl FnMut(usize)) {
+        let around = PlanBox { lo: p - reach, hi: p + reach };
+        let reached =
+            |n: usize, node: &PlanBox| node.meets(&around) && self.tilted[n].is_none_or(|tilted| tilted.comes_near(p, reach));
+        self.tree.search(reached, |one| one.meets(&around), visit);
     }
 
     /// Calls `visit` for every segment that may meet the ray from `p` towards +x.
-    pub fn ray(&self, p: DVec2, mut visit: impl FnMut(usize)) {
-        let leaves = self.nodes.len() / 2;
-        let mut stack = vec![1];
-        while let Some(n) = stack.pop() {
-            if !self.nodes[n].meets_ray(p) {
-                continue;
-            }
-            if n < leaves {
-                stack.extend([2 * n + 1, 2 * n]);
-            } else {
-                self.run(n).filter(|&i| self.segments[i].meets_ray(p)).for_each(&mut visit);
-            }
-        }
+    pub fn ray(&self, p: DVec2, visit: impl FnMut(usize)) {
+        let meets_ray = |one: &PlanBox| one.lo.y <= p.y && p.y <= one.hi.y && one.hi.x >= p.x;
+        self.tree.search(|_, node| meets_ray(node), meets_ray, visit);
     }
 }
 

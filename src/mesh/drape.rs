@@ -4,6 +4,7 @@
 //! Volumes do not come from here.
 
 use crate::kernel::box_tree::BoxTree;
+use crate::kernel::plan_box::PlanBox;
 use glam::{DVec2, DVec3};
 
 /// Gaps along a line up to this, in the length unit, are rounding.
@@ -43,13 +44,10 @@ impl Run {
 }
 
 impl<'a> Drape<'a> {
-    /// Makes a mesh ready to be asked; with `within`, a plan box from lower left to upper right, only its triangles that meet it.
-    pub fn new(vertices: &'a [DVec3], triangles: &'a [[u32; 3]], within: Option<(DVec2, DVec2)>) -> Self {
-        let boxed = |t: &[u32; 3]| {
-            let [a, b, c] = t.map(|v| vertices[v as usize].truncate());
-            (a.min(b).min(c), a.max(b).max(c))
-        };
-        let wanted = |(lo, hi): &(DVec2, DVec2)| within.is_none_or(|(from, to)| lo.cmple(to).all() && from.cmple(*hi).all());
+    /// Makes a mesh ready to be asked; with `within` only its triangles that meet this box.
+    pub fn new(vertices: &'a [DVec3], triangles: &'a [[u32; 3]], within: Option<PlanBox>) -> Self {
+        let boxed = |t: &[u32; 3]| PlanBox::of(t.map(|v| vertices[v as usize].truncate()));
+        let wanted = |bounds: &PlanBox| within.is_none_or(|within| bounds.meets(&within));
         let boxes: Vec<_> = triangles.iter().zip(0..).map(|(t, i)| (i, boxed(t))).filter(|(_, b)| wanted(b)).collect();
         Self { vertices, triangles, tree: BoxTree::new(&boxes) }
     }
@@ -61,7 +59,7 @@ impl<'a> Drape<'a> {
     /// Height under a point, with the triangle; `None` beside the mesh. On an edge the triangle of the lowest number.
     pub fn at(&self, p: DVec2) -> Option<(f64, u32)> {
         let mut found: Option<u32> = None;
-        self.tree.meeting(p, p, |t| {
+        self.tree.meeting(&PlanBox::of([p]), |t| {
             if found.is_none_or(|f| t < f) && holds(&self.corners(t), p) {
                 found = Some(t);
             }
@@ -80,7 +78,7 @@ impl<'a> Drape<'a> {
         for i in 0..STRETCHES {
             let point = |i: usize| from.lerp(to, i as f64 / STRETCHES as f64);
             let (a, b) = (point(i), point(i + 1));
-            self.tree.meeting(a.min(b), a.max(b), |t| near.push(t));
+            self.tree.meeting(&PlanBox::of([a, b]), |t| near.push(t));
         }
         near.sort_unstable();
         near.dedup();

@@ -1,6 +1,7 @@
 //! Triangulated surfaces and line work, the products of the program.
 
 use crate::kernel::frame::Frame;
+use crate::kernel::plan_box::PlanBox;
 use glam::DVec3;
 
 /// What a triangle belongs to. The numbers are the `part` property of PLY files, the names the groups of OBJ files.
@@ -54,6 +55,11 @@ impl Tin {
     /// Corners of triangle `t` in the local frame.
     pub fn corners(&self, t: usize) -> [DVec3; 3] {
         self.triangles[t].map(|v| self.vertices[v as usize])
+    }
+
+    /// Plan box of all vertices in the local frame.
+    pub fn plan_box(&self) -> PlanBox {
+        PlanBox::of(self.vertices.iter().map(|v| v.truncate()))
     }
 }
 

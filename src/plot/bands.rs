@@ -5,6 +5,7 @@
 //! step at most.
 
 use super::lines::Stroke;
+use super::scale::range;
 use glam::DVec2;
 
 /// A corner on the lattice.
@@ -45,8 +46,7 @@ impl Bands {
     pub(super) fn add(&mut self, corners: &[Point]) {
         self.rest.clear();
         self.rest.extend_from_slice(corners);
-        let (low, high) =
-            corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), c| (low.min(c.value), high.max(c.value)));
+        let (low, high) = range(corners.iter().map(|corner| corner.value));
         // From the highest band down.
         let top = self.levels.partition_point(|level| *level < high);
         for band in (0..top).rev() {
@@ -161,7 +161,7 @@ fn chained(edges: &[(Place, Place, i32)], steps: f64) -> Vec<Stroke> {
 mod tests {
     use super::*;
 
-    pub(super) fn area(strokes: &[Stroke]) -> f64 {
+    fn area(strokes: &[Stroke]) -> f64 {
         let one =
             |s: &Stroke| (0..s.points.len()).map(|i| 0.5 * s.points[i].perp_dot(s.points[(i + 1) % s.points.len()])).sum::<f64>();
         strokes.iter().map(one).sum()

@@ -1,17 +1,19 @@
 //! Contours of the existing ground.
 
 use super::lines::Stroke;
+use super::scale::range;
+use crate::kernel::plan_box::PlanBox;
 use glam::{DVec2, DVec3};
 
 /// Lines of equal height on the triangles that meet a plan box, for ascending levels; of each level its lines. A height at a level
 /// counts as above it, so that no contour branches. The higher ground lies on the left.
-pub(super) fn contours(vertices: &[DVec3], triangles: &[[u32; 3]], within: (DVec2, DVec2), levels: &[f64]) -> Vec<Vec<Stroke>> {
+pub(super) fn contours(vertices: &[DVec3], triangles: &[[u32; 3]], within: PlanBox, levels: &[f64]) -> Vec<Vec<Stroke>> {
     // Each crossing is named by the edge it lies on: lesser and greater vertex.
     let name = |a: u32, b: u32| (a.min(b), a.max(b));
     let mut segments: Vec<Vec<Segment>> = vec![Vec::new(); levels.len()];
     for t in near(vertices, triangles, within) {
         let corners = t.map(|v| vertices[v as usize].z);
-        let (low, high) = range(&corners);
+        let (low, high) = range(corners);
         let first = levels.partition_point(|level| *level <= low);
         for (level, found) in levels.iter().zip(&mut segments).skip(first).take_while(|(level, _)| **level <= high) {
             let (mut from, mut to) = (None, None);
@@ -43,25 +45,14 @@ struct Segment {
 }
 
 /// Triangles that meet a plan box.
-fn near<'a>(
-    vertices: &'a [DVec3],
-    triangles: &'a [[u32; 3]],
-    (lo, hi): (DVec2, DVec2),
-) -> impl Iterator<Item = [u32; 3]> + use<'a> {
-    triangles.iter().copied().filter(move |t| {
-        let [a, b, c] = t.map(|v| vertices[v as usize].truncate());
-        a.min(b).min(c).cmple(hi).all() && a.max(b).max(c).cmpge(lo).all()
-    })
-}
-
-fn range(heights: &[f64]) -> (f64, f64) {
-    heights.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(*z), high.max(*z)))
+fn near<'a>(vertices: &'a [DVec3], triangles: &'a [[u32; 3]], within: PlanBox) -> impl Iterator<Item = [u32; 3]> + use<'a> {
+    let meets = move |t: &[u32; 3]| PlanBox::of(t.map(|v| vertices[v as usize].truncate())).meets(&within);
+    triangles.iter().copied().filter(meets)
 }
 
 /// Lowest and highest ground of the triangles that meet a plan box.
-pub(super) fn heights(vertices: &[DVec3], triangles: &[[u32; 3]], within: (DVec2, DVec2)) -> Option<(f64, f64)> {
-    let all = near(vertices, triangles, within).flatten().map(|v| vertices[v as usize].z);
-    let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)));
+pub(super) fn heights(vertices: &[DVec3], triangles: &[[u32; 3]], within: PlanBox) -> Option<(f64, f64)> {
+    let (low, high) = range(near(vertices, triangles, within).flatten().map(|v| vertices[v as usize].z));
     (low <= high).then_some((low, high))
 }
 
@@ -121,7 +112,7 @@ mod tests {
             [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]
         };
         let triangles: Vec<[u32; 3]> = (0..n).flat_map(|j| (0..n).flat_map(move |i| square(i, j))).collect();
-        let everywhere = (DVec2::splat(-20.0), DVec2::splat(20.0));
+        let everywhere = PlanBox { lo: DVec2::splat(-20.0), hi: DVec2::splat(20.0) };
         assert_eq!(heights(&vertices, &triangles, everywhere).unwrap().1, 10.0);
         for (lines, z) in contours(&vertices, &triangles, everywhere, &[2.0, 5.0, 8.0]).into_iter().zip([2.0, 5.0, 8.0]) {
             assert!(lines.len() == 1 && lines[0].closed, "{z}: {}", lines.len());

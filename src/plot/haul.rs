@@ -3,10 +3,10 @@
 use super::chart::Chart;
 use super::course::courses;
 use super::labels::{Labels, fitted, width};
-use super::legend::{Block, Sample, flow};
-use super::profile::{columns, station_text};
+use super::legend::{Block, Legend, Sample};
 use super::scale::{figure, round_step, signed};
-use super::style::SMALL;
+use super::stations::{columns, station_text};
+use super::style::{MARGIN, SMALL};
 use super::svg::{Drawn, Svg};
 use super::{Scene, Style};
 use crate::ground;
@@ -98,9 +98,9 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     }
     blocks.push(Block::symbol(Sample::Patch("c3"), "cut of an interval"));
     blocks.push(Block::symbol(Sample::Patch("f3"), "fill of an interval"));
-    let legend = flow(&blocks, size_x);
+    let legend = Legend::new(blocks, size_x);
     let below = bars.bottom() + 34.0;
-    let height = below + legend.iter().map(|row| row.height).sum::<f64>() + 10.0;
+    let height = below + legend.height() + 10.0;
 
     let end = main.last().map_or(0.0, |p| p.y);
     let balance = match end {
@@ -111,7 +111,6 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     let title = format!("Mass haul: {}", course.axis.name);
     let mut svg =
         Svg::new(style, DVec2::new(style.width(), height.ceil()), &title, &format!("Running net of cut and fill; {balance}."));
-    svg.text("h1", DVec2::new(20.0, 24.0), 0.0, &fitted(&title, 17.0, style.width() - 40.0));
     let pads = &on_ground.tallied.pads;
     let beside = if pads.cut + pads.fill > 0.0 {
         let [cut, fill] = [pads.cut, pads.fill].map(|volume| figure(volume, 1));
@@ -120,7 +119,7 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
         String::new()
     };
     let text = format!("volumes in {unit}³ · {balance}{beside}");
-    svg.text("s soft", DVec2::new(20.0, 43.0), 0.0, &fitted(&text, SMALL - 0.5, style.width() - 40.0));
+    svg.heading(&title, &text, MARGIN, style.width() - 2.0 * MARGIN);
 
     let stations = columns(scene, length, size_x / length);
     curve.columns(&mut svg, &stations, bars.bottom());
@@ -148,13 +147,7 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     svg.text("s b", curve.at - DVec2::new(0.0, 7.0), 0.0, &fitted("running net: rising is cut, falling is fill", SMALL, size_x));
     svg.text("s b", bars.at - DVec2::new(0.0, 7.0), 0.0, "cut and fill of each interval");
     svg.text("s soft", DVec2::new(12.0, bars.bottom() + 16.0), 0.0, "station");
-    let mut y = below;
-    for row in legend {
-        for (x, i) in row.blocks {
-            blocks[i].draw(&mut svg, DVec2::new(LEFT + x, y));
-        }
-        y += row.height;
-    }
+    legend.draw(&mut svg, DVec2::new(LEFT, below));
     Some(svg.finish())
 }
 

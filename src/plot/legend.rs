@@ -52,7 +52,7 @@ const WORD: f64 = 30.0;
 impl Block {
     /// A symbol and what it stands for.
     pub(super) fn symbol(sample: Sample, text: &str) -> Self {
-        let size = DVec2::new(SAMPLE + 8.0 + width(text, 11.0) + 22.0, 20.0);
+        let size = DVec2::new(SAMPLE + 8.0 + width(text, SMALL) + 22.0, 20.0);
         Self { kind: Kind::Symbol { sample, text: text.to_owned() }, size }
     }
 
@@ -73,7 +73,7 @@ impl Block {
     }
 
     /// Draws the block, its upper left corner at `at`.
-    pub(super) fn draw(&self, svg: &mut Svg, at: DVec2) {
+    fn draw(&self, svg: &mut Svg, at: DVec2) {
         match &self.kind {
             Kind::Symbol { sample, text } => {
                 let middle = at + DVec2::new(0.0, 8.0);
@@ -139,28 +139,52 @@ fn cell(classes: &[String]) -> f64 {
     (280.0 / classes.len() as f64).clamp(CELL.1, CELL.0)
 }
 
-/// A row of the legend.
+/// Blocks in rows.
 #[derive(Clone, Debug)]
-pub(super) struct Row {
-    pub(super) height: f64,
-    /// Where each block begins, and its number.
-    pub(super) blocks: Vec<(f64, usize)>,
+pub(super) struct Legend {
+    blocks: Vec<Block>,
+    rows: Vec<Row>,
 }
 
-/// Puts blocks into rows of a width, in their order, those of one height together.
-pub(super) fn flow(blocks: &[Block], room: f64) -> Vec<Row> {
-    let mut rows: Vec<Row> = Vec::new();
-    let mut x = 0.0;
-    for (i, block) in blocks.iter().enumerate() {
-        let fits = |row: &&mut Row| row.height == block.size.y && x + block.size.x <= room;
-        match rows.last_mut().filter(fits) {
-            Some(row) => row.blocks.push((x, i)),
-            None => {
-                rows.push(Row { height: block.size.y, blocks: vec![(0.0, i)] });
-                x = 0.0;
+#[derive(Clone, Debug)]
+struct Row {
+    height: f64,
+    /// Where each block begins, and its number.
+    blocks: Vec<(f64, usize)>,
+}
+
+impl Legend {
+    /// Puts blocks into rows of a width, in their order, those of one height together.
+    pub(super) fn new(blocks: Vec<Block>, room: f64) -> Self {
+        let mut rows: Vec<Row> = Vec::new();
+        let mut x = 0.0;
+        for (i, block) in blocks.iter().enumerate() {
+            let fits = |row: &&mut Row| row.height == block.size.y && x + block.size.x <= room;
+            match rows.last_mut().filter(fits) {
+                Some(row) => row.blocks.push((x, i)),
+                None => {
+                    rows.push(Row { height: block.size.y, blocks: vec![(0.0, i)] });
+                    x = 0.0;
+                }
             }
+            x += block.size.x;
         }
-        x += block.size.x;
+        Self { blocks, rows }
     }
-    rows
+
+    /// Height of all rows.
+    pub(super) fn height(&self) -> f64 {
+        self.rows.iter().map(|row| row.height).sum()
+    }
+
+    /// Draws the blocks, the upper left corner of the first at `at`.
+    pub(super) fn draw(&self, svg: &mut Svg, at: DVec2) {
+        let mut y = at.y;
+        for row in &self.rows {
+            for &(x, i) in &row.blocks {
+                self.blocks[i].draw(svg, DVec2::new(at.x + x, y));
+            }
+            y += row.height;
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! Lines on paper: fewer points where nobody sees the difference, and never more than there is room for.
 
+use crate::kernel::plan_box::PlanBox;
 use glam::DVec2;
 
 /// A polyline or outline in px. An outline does not repeat its first point.
@@ -34,9 +35,7 @@ pub(super) fn simplified(strokes: &[Stroke], most: usize) -> Vec<Option<Stroke>>
 /// A stroke with fewer points; `None` if it is smaller than the tolerance.
 fn simpler(stroke: &Stroke, tolerance: f64) -> Option<Stroke> {
     let points = &stroke.points;
-    let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let (lo, hi) = points.iter().fold(empty, |(lo, hi), p| (lo.min(*p), hi.max(*p)));
-    let size = (hi - lo).max_element();
+    let size = PlanBox::of(points.iter().copied()).size().max_element();
     if size <= tolerance || size.is_nan() {
         return None;
     }

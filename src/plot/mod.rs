@@ -18,6 +18,7 @@ mod profile;
 mod scale;
 mod scene;
 mod sections;
+mod stations;
 mod style;
 mod svg;
 

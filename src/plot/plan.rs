@@ -9,12 +9,14 @@ mod map;
 pub(super) use depths::band_outlines;
 
 use super::course::courses;
-use super::labels::{Labels, fitted};
-use super::legend::{Block, Sample, flow};
+use super::labels::Labels;
+use super::legend::{Block, Legend, Sample};
 use super::scale::{figure, round_step};
 use super::svg::Svg;
 use super::{Scene, Style, contours, lines};
+use crate::kernel::plan_box::PlanBox;
 use crate::mesh::drape::Drape;
+use crate::model::Part;
 use crate::write::GENERATOR;
 use glam::DVec2;
 use map::Map;
@@ -42,6 +44,9 @@ const HEAD: f64 = 56.0;
 const LEFT: f64 = 26.0;
 const RIGHT: f64 = 10.0;
 
+/// Room for the north arrow beside the title.
+const NORTH: f64 = 50.0;
+
 /// Room below the map, for eastings.
 const BELOW: f64 = 22.0;
 
@@ -66,8 +71,8 @@ pub fn plan(scene: &Scene<'_>, style: &Style) -> Option<String> {
         Block::symbol(Sample::Line("ln contour i"), &text)
     }));
     let top = HEAD + map.size.y + BELOW;
-    let rows = flow(&blocks, width - LEFT - RIGHT);
-    let height = top + rows.iter().map(|row| row.height).sum::<f64>() + 16.0;
+    let legend = Legend::new(blocks, width - LEFT - RIGHT);
+    let height = top + legend.height() + 16.0;
 
     let title = format!("Plan: {}", scene.name());
     let mut svg = Svg::new(style, DVec2::new(width, height.ceil()), &title, &description(scene, &map, depths.as_ref()));
@@ -84,11 +89,11 @@ pub fn plan(scene: &Scene<'_>, style: &Style) -> Option<String> {
         None => depths::draw_parts(&mut svg, &map, scene, BAND_POINTS),
     }
     furniture::crosses(&mut svg, &map);
-    lines.draw(&mut svg, &map);
+    lines.draw(&mut svg);
     linework::axes(&mut svg, &map, &courses);
     linework::stations(&mut svg, &map, scene, &courses, &design, &mut labels);
     if let Some(depths) = &depths {
-        depths.marks(&mut svg, &map, scene, &mut labels);
+        depths.marks(&mut svg, &map, &mut labels);
     }
     lines.labels(&mut svg, &map, &mut labels);
     if let Some((interval, contours)) = &ground {
@@ -97,13 +102,7 @@ pub fn plan(scene: &Scene<'_>, style: &Style) -> Option<String> {
     svg.end_window();
     svg.rect("frame", DVec2::new(LEFT, HEAD), map.size);
     furniture::coordinates(&mut svg, &map, DVec2::new(LEFT, HEAD));
-    let mut y = top;
-    for row in rows {
-        for (x, i) in row.blocks {
-            blocks[i].draw(&mut svg, DVec2::new(LEFT + x, y));
-        }
-        y += row.height;
-    }
+    legend.draw(&mut svg, DVec2::new(LEFT, top));
     Some(svg.finish().text)
 }
 
@@ -114,15 +113,13 @@ fn measure(length: f64, scene: &Scene<'_>) -> String {
 
 /// Title, and below it what the coordinates are.
 fn heading(svg: &mut Svg, scene: &Scene<'_>, title: &str, width: f64) {
-    let room = width - LEFT - RIGHT - 50.0;
-    svg.text("h1", DVec2::new(LEFT, 24.0), 0.0, &fitted(title, 17.0, room));
     let system = scene.crs.map_or_else(String::new, |crs| format!(" · {crs}"));
     let text = format!("coordinates, elevations and depths in {}{system} · {GENERATOR}", scene.unit.plural());
-    svg.text("s soft", DVec2::new(LEFT, 43.0), 0.0, &fitted(&text, 10.5, room));
+    svg.heading(title, &text, LEFT, width - LEFT - RIGHT - NORTH);
 }
 
 fn description(scene: &Scene<'_>, map: &Map, depths: Option<&depths::Depths>) -> String {
-    let (lo, hi) = map.world();
+    let PlanBox { lo, hi } = map.world();
     let of = |v: f64| figure(v, 0);
     let place = format!("East {} to {}, north {} to {}.", of(lo.x), of(hi.x), of(lo.y), of(hi.y));
     match depths {
@@ -133,7 +130,6 @@ fn description(scene: &Scene<'_>, map: &Map, depths: Option<&depths::Depths>) ->
 
 /// Legend of the parts where there are no depths.
 fn parts(scene: &Scene<'_>, depths: bool) -> Vec<Block> {
-    use crate::model::Part;
     let has = |part: Part| !depths && scene.design.parts.contains(&part);
     let named =
         [(Part::Platform, "platform", "platform"), (Part::FillSlope, "f2", "fill slope"), (Part::CutSlope, "c2", "cut slope")];

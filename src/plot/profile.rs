@@ -3,12 +3,14 @@
 use super::between::{Between, height};
 use super::chart::Chart;
 use super::course::{Course, courses};
-use super::labels::{fitted, width};
-use super::legend::{Block, Sample, flow};
-use super::scale::{decimals, figure, multiples, round_step, signed};
-use super::style::SMALL;
+use super::labels::width;
+use super::legend::{Block, Legend, Sample};
+use super::scale::{figure, range, round_step, signed};
+use super::stations::{columns, station_text};
+use super::style::{MARGIN, SMALL};
 use super::svg::{Drawn, Path, Svg};
 use super::{Scene, Style};
+use crate::kernel::plan_box::PlanBox;
 use crate::mesh::drape::Drape;
 use crate::write::GENERATOR;
 use glam::DVec2;
@@ -23,9 +25,6 @@ const HEIGHT: (f64, f64) = (250.0, 420.0);
 
 /// Height of a row of figures.
 const ROW: f64 = 19.0;
-
-/// Columns of figures are at least this far apart, in px.
-const COLUMN: f64 = 48.0;
 
 /// A stretch shorter than this has no room for its gradient, in px.
 const SHORTEST: f64 = 32.0;
@@ -49,9 +48,8 @@ pub fn profile(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<String> 
 pub(super) fn ground_along(scene: &Scene<'_>, course: &Course) -> Vec<Vec<DVec2>> {
     let Some(ground) = &scene.ground else { return Vec::new() };
     let line = &course.axis.line;
-    let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let (lo, hi) = line.iter().fold(empty, |(lo, hi), p| (lo.min(p.0), hi.max(p.0)));
-    let drape = Drape::new(&ground.terrain.vertices, &ground.terrain.triangles, Some((lo, hi)));
+    let along = PlanBox::of(line.iter().map(|p| p.0));
+    let drape = Drape::new(&ground.terrain.vertices, &ground.terrain.triangles, Some(along));
     let mut found: Vec<Vec<DVec2>> = Vec::new();
     for pair in line.windows(2) {
         let ((a, from), (b, to)) = (pair[0], pair[1]);
@@ -103,13 +101,13 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     }
     let ground = ground_along(scene, &course);
     let all = course.heights.iter().chain(ground.iter().flatten()).map(|p| p.y);
-    let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)));
+    let (low, high) = range(all);
 
     let size_x = style.width() - LEFT - RIGHT;
     let scale = size_x / length;
-    let range = (high - low).max(0.02 * length).max(1e-3);
-    let factor = exaggeration(range, scale);
-    let field = (range * scale * factor + 2.0 * 18.0).min(HEIGHT.1).round();
+    let relief = (high - low).max(0.02 * length).max(1e-3);
+    let factor = exaggeration(relief, scale);
+    let field = (relief * scale * factor + 2.0 * 18.0).min(HEIGHT.1).round();
     let middle = 0.5 * (low + high);
     let half = 0.5 * field / (scale * factor);
     let chart = Chart {
@@ -130,8 +128,8 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     }
     let rows = if on_ground { 5.0 } else { 3.0 };
     let below = chart.bottom() + rows * ROW + 14.0;
-    let legend = flow(&blocks, size_x);
-    let total = below + legend.iter().map(|row| row.height).sum::<f64>() + 10.0;
+    let legend = Legend::new(blocks, size_x);
+    let total = below + legend.height() + 10.0;
     let title = format!("Long profile: {}", course.axis.name);
     let desc = format!(
         "Stations 0 to {} {unit}, elevations {} to {} {unit}.",
@@ -141,14 +139,13 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
         unit = scene.unit
     );
     let mut svg = Svg::new(style, DVec2::new(style.width(), total.ceil()), &title, &desc);
-    svg.text("h1", DVec2::new(20.0, 24.0), 0.0, &fitted(&title, 17.0, style.width() - 40.0));
     let words = if factor >= 1.0 {
         format!("heights {factor} times as large as lengths")
     } else {
         format!("heights {} times as small as lengths", figure(1.0 / factor, 1))
     };
     let text = format!("{words} · stations and elevations in {} · {GENERATOR}", scene.unit.plural());
-    svg.text("s soft", DVec2::new(20.0, 43.0), 0.0, &fitted(&text, SMALL, style.width() - 40.0));
+    svg.heading(&title, &text, MARGIN, style.width() - 2.0 * MARGIN);
 
     let columns = columns(scene, length, scale);
     let unit = scene.unit.label();
@@ -198,41 +195,8 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     }
     chart.below(&mut svg, "s b m", baseline(rows - 1.0), of(&|x| Some(station_text(x, &columns))));
 
-    let mut y = below;
-    for row in legend {
-        for (x, i) in row.blocks {
-            blocks[i].draw(&mut svg, DVec2::new(LEFT + x, y));
-        }
-        y += row.height;
-    }
+    legend.draw(&mut svg, DVec2::new(LEFT, below));
     Some(svg.finish())
-}
-
-/// A station as text, with the decimals of its neighbours where it is a multiple as they are, else with two.
-pub(super) fn station_text(station: f64, columns: &[f64]) -> String {
-    let step = columns.get(1).map_or(1.0, |x| x - columns[0]);
-    let share = station / step;
-    let even = (share - share.round()).abs() < 1e-6;
-    figure(station, if even { decimals(step) } else { 2.max(decimals(step)) })
-}
-
-/// Stations with figures: multiples of the spacing of stations where there is one, and the end.
-pub(super) fn columns(scene: &Scene<'_>, length: f64, scale: f64) -> Vec<f64> {
-    let least = COLUMN / scale;
-    let spacing = scene.ground.as_ref().and_then(|ground| ground.stations.spacing());
-    let step = spacing.map_or_else(|| round_step(least), |d| if d >= least { d } else { d * round_step(least / d).ceil() });
-    let mut columns = multiples(0.0, length, step);
-    if columns.is_empty() {
-        columns.push(0.0);
-    }
-    // The end has a column of its own, in place of one that is too near.
-    while columns.len() > 1 && columns.last().is_some_and(|x| (length - x) * scale < COLUMN && *x < length) {
-        columns.pop();
-    }
-    if columns.last().is_some_and(|x| *x < length) {
-        columns.push(length);
-    }
-    columns
 }
 
 /// Gradients and lengths of the stretches that have room for them.

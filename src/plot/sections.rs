@@ -7,11 +7,12 @@ use super::between::Between;
 use super::chart::Chart;
 use super::course::{Course, courses};
 use super::labels::{Labels, fitted, width};
-use super::scale::{figure, multiples, round_step, signed};
+use super::scale::{figure, multiples, range, round_step, signed};
 use super::style::SMALL;
 use super::svg::{Drawn, Path, Svg};
 use super::{Scene, Style};
 use crate::ground::{Section, place, sections_at};
+use crate::kernel::plan_box::PlanBox;
 use crate::mesh::drape::{Drape, Run};
 use crate::model::{Part, Tin};
 use glam::{DVec2, DVec3};
@@ -71,16 +72,14 @@ impl<'a> Cutter<'a> {
     fn new(scene: &Scene<'a>) -> Self {
         let tin = scene.design;
         let used = tin.triangles.iter().flatten().map(|v| tin.vertices[*v as usize].truncate());
-        let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        let (lo, hi) = used.fold(empty, |(lo, hi), p| (lo.min(p), hi.max(p)));
+        let PlanBox { lo, hi } = PlanBox::of(used);
         let extent = if lo.is_finite() { hi - lo } else { DVec2::ZERO };
+        let reach = extent.length() + 1.0;
         // The window of a section is hardly wider than the design is anywhere.
-        let around = DVec2::splat(extent.length() + 1.0);
-        let ground = scene.ground.as_ref().map(|ground| {
-            let within = Some((lo - around, hi + around));
-            Drape::new(&ground.terrain.vertices, &ground.terrain.triangles, within)
-        });
-        Self { design: Drape::new(&tin.vertices, &tin.triangles, None), ground, reach: extent.length() + 1.0 }
+        let around = PlanBox { lo: lo - reach, hi: hi + reach };
+        let ground =
+            scene.ground.as_ref().map(|ground| Drape::new(&ground.terrain.vertices, &ground.terrain.triangles, Some(around)));
+        Self { design: Drape::new(&tin.vertices, &tin.triangles, None), ground, reach }
     }
 
     /// The design in the plane through a point, looking along a direction; `figures` say how far the works of the axis go.
@@ -141,7 +140,7 @@ pub(super) fn views(scene: &Scene<'_>, course: &Course, axis: usize, stations: &
     let mut found: Vec<_> = on_axis.iter().enumerate().filter_map(view).collect();
     let mut scale = f64::INFINITY;
     for (_, _, View { design, shown: (from, to), .. }) in &found {
-        let (low, high) = range(design.points.iter().filter(|p| (*from..=*to).contains(&p.x)));
+        let (low, high) = range(design.points.iter().filter(|p| (*from..=*to).contains(&p.x)).map(|p| p.y));
         scale = scale.min(width / (to - from)).min((HEIGHT.1 - ABOVE - UNDER) / (1.3 * (high - low)).max(1e-9));
     }
     for (_, (at, along), view) in &mut found {
@@ -151,11 +150,6 @@ pub(super) fn views(scene: &Scene<'_>, course: &Course, axis: usize, stations: &
         cutter.add_ground(*at, *along, view);
     }
     (scale, found.into_iter().map(|(station, _, view)| (station, view)).collect())
-}
-
-/// Least and greatest height of some points.
-fn range<'a>(points: impl Iterator<Item = &'a DVec2>) -> (f64, f64) {
-    points.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.y), high.max(p.y)))
 }
 
 fn all(scene: &Scene<'_>, axis: usize, stations: &[f64], style: &Style) -> Vec<(f64, Drawn)> {
@@ -230,7 +224,7 @@ fn section(
     let unit = scene.unit;
     let (from, to) = view.shown;
     let shown = |p: &&DVec2| (from..=to).contains(&p.x);
-    let (low, high) = range(view.design.points.iter().chain(view.ground.iter().flatten()).filter(shown));
+    let (low, high) = range(view.design.points.iter().chain(view.ground.iter().flatten()).filter(shown).map(|p| p.y));
     let size =
         DVec2::new(style.width() - LEFT - RIGHT, ((high - low) * scale + ABOVE + UNDER).clamp(HEIGHT.0, 1.5 * HEIGHT.1).round());
     let bottom = 0.5 * (low + high) - 0.5 * (size.y + UNDER - ABOVE) / scale;

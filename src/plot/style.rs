@@ -41,6 +41,12 @@ pub(super) const CLASSES: usize = 6;
 /// Size of the smallest text, in px.
 pub(super) const SMALL: f64 = 11.0;
 
+/// Size of titles, in px: that of the class `h1`.
+pub(super) const TITLE: f64 = 17.0;
+
+/// Room beside titles, in px.
+pub(super) const MARGIN: f64 = 20.0;
+
 /// Colours by name, on light and on dark paper.
 const PALETTE: [(&str, &str, &str); 29] = [
     ("paper", "#ffffff", "#14171b"),
@@ -135,8 +141,6 @@ const COLOURS: &str = "\
 .plot .design{stroke:$ink}
 .plot .platform{fill:$platform}
 .plot .nought{fill:$nought}
-.plot .cutline{stroke:$cut}
-.plot .fillline{stroke:$fill}
 .plot text.cut{fill:$cut}
 .plot text.fill{fill:$fill}
 .plot .thin{stroke:$ink}

@@ -1,7 +1,7 @@
 //! SVG as text: elements with classes, escaped text, numbers of few digits.
 
 use super::labels::fitted;
-use super::style::{Style, file_css};
+use super::style::{MARGIN, SMALL, Style, TITLE, file_css};
 use glam::DVec2;
 use std::fmt::Write as _;
 
@@ -89,6 +89,12 @@ impl Svg {
         let _ = writeln!(self.text, ">{}</text>", escaped(text));
     }
 
+    /// The title of a drawing and a line below it, from `x` on, cut off where there is no more `room`.
+    pub(super) fn heading(&mut self, title: &str, below: &str, x: f64, room: f64) {
+        self.text("h1", DVec2::new(x, 24.0), 0.0, &fitted(title, TITLE, room));
+        self.text("s soft", DVec2::new(x, 43.0), 0.0, &fitted(below, SMALL, room));
+    }
+
     /// The whole drawing.
     pub(super) fn finish(mut self) -> Drawn {
         self.text.push_str("</svg>\n");
@@ -115,14 +121,14 @@ pub(super) fn sheet(parts: &[Drawn], title: &str, headed: bool, note: Option<&st
     let mut svg = Svg::new(&Style::FILE, size, title, note.unwrap_or(title));
     let mut y = head;
     if headed {
-        svg.text("h1", DVec2::new(20.0, 24.0), 0.0, &fitted(title, 17.0, size.x - 40.0));
+        svg.text("h1", DVec2::new(MARGIN, 24.0), 0.0, &fitted(title, TITLE, size.x - 2.0 * MARGIN));
     }
     for part in parts {
         svg.text.push_str(&part.text.replacen("<svg ", &format!("<svg y=\"{}\" ", number(y)), 1));
         y += part.size.y;
     }
     if let Some(note) = note {
-        svg.text("soft", DVec2::new(20.0, y + 20.0), 0.0, note);
+        svg.text("soft", DVec2::new(MARGIN, y + 20.0), 0.0, note);
     }
     svg.finish().text
 }

@@ -173,15 +173,13 @@ pub struct Lie<'a> {
 ///
 /// Heights are those of the design given, so catch points lie on the daylight line of the mesh as written.
 pub fn stakes(lie: &Lie<'_>) -> Vec<Stake> {
-    let (vertices, triangles) = (&lie.design.vertices, &lie.design.triangles);
-    let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let bounds = vertices.iter().fold(empty, |(lo, hi), v| (lo.min(v.truncate()), hi.max(v.truncate())));
+    let bounds = lie.design.plan_box();
     let walk = Walk {
         lie,
-        design: Drape::new(vertices, triangles, None),
+        design: Drape::new(&lie.design.vertices, &lie.design.triangles, None),
         ground: lie.ground.map(|ground| Drape::new(&ground.vertices, &ground.triangles, Some(bounds))),
         // Farther than the mesh is wide.
-        far: 2.0 * (bounds.1 - bounds.0).length().max(1.0),
+        far: 2.0 * bounds.size().length().max(1.0),
     };
     let mut found = Vec::new();
     for (i, axis) in lie.stations.axes().iter().enumerate() {

@@ -5,27 +5,7 @@ use std::f64::consts::TAU;
 use glam::{DVec2, DVec3};
 
 use super::Segment;
-
-/// SplitMix64: a small generator with a fixed sequence per seed.
-pub(crate) struct Random(u64);
-
-impl Random {
-    pub(crate) fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    pub(crate) fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    pub(crate) fn between(&mut self, lo: f64, hi: f64) -> f64 {
-        lo + (hi - lo) * ((self.bits() >> 11) as f64 / (1u64 << 53) as f64)
-    }
-}
+pub(crate) use crate::kernel::testing::Random;
 
 /// Sets of segments with their slope: loose ones, lines that wander, clusters, one straight line, tiny beside huge.
 pub(crate) fn sets(random: &mut Random) -> Vec<(f64, Vec<Segment>)> {

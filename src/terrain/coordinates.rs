@@ -3,6 +3,7 @@
 use super::corners::Corners;
 use super::place::{defect, point, short};
 use super::upright;
+use crate::kernel::plan_box::PlanBox;
 use crate::model::{Defect, Defects, Note};
 use crate::read::{CoordinateKind, InputFormat, Source};
 use crate::validate::{self, INPUT_LIMIT};
@@ -80,7 +81,7 @@ impl Coordinates {
             return;
         }
         self.no_data(vertices, source, defects);
-        match validate::degrees(source, (lo.truncate(), hi.truncate())) {
+        match validate::degrees(source, PlanBox { lo: lo.truncate(), hi: hi.truncate() }) {
             validate::Verdict::Lengths => {}
             validate::Verdict::Refused(defect) => defects.push(defect.code, || defect),
             validate::Verdict::Noted(note) => notes.push(note),

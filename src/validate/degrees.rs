@@ -1,6 +1,7 @@
 //! Longitude and latitude are no lengths.
 
 use super::vertices::show;
+use crate::kernel::plan_box::PlanBox;
 use crate::model::{Defect, Defects, Note};
 use crate::read::{CoordinateKind, InputFormat, RawInput, Source};
 use glam::DVec2;
@@ -27,8 +28,7 @@ pub enum Verdict {
 /// Refuses longitude and latitude.
 pub(super) fn check(raw: &RawInput, defects: &mut Defects, notes: &mut Vec<Note>) {
     let vertices = raw.lines.iter().flat_map(|line| &line.vertices).map(|vertex| DVec2::new(vertex.x, vertex.y));
-    let (lo, hi) = vertices.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
-    match degrees(&raw.source, (lo, hi)) {
+    match degrees(&raw.source, PlanBox::of(vertices)) {
         Verdict::Lengths => {}
         Verdict::Refused(defect) => defects.push(defect.code, || defect),
         Verdict::Noted(note) => notes.push(note),
@@ -41,7 +41,7 @@ pub(super) fn check(raw: &RawInput, defects: &mut Defects, notes: &mut Vec<Note>
 /// statement is wrong and a note says so. An input that calls itself projected is believed. Only one that says nothing is
 /// judged by its figures, with the rule of the constants above, so that local site coordinates such as (0, 0) to (80, 40)
 /// pass.
-pub fn degrees(source: &Source, (lo, hi): (DVec2, DVec2)) -> Verdict {
+pub fn degrees(source: &Source, PlanBox { lo, hi }: PlanBox) -> Verdict {
     if !lo.cmple(hi).all() {
         return Verdict::Lengths;
     }

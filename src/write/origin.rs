@@ -2,8 +2,9 @@
 
 use super::number::push_f64;
 use super::{EncodeError, Head};
+use crate::kernel::plan_box::PlanBox;
 use crate::model::Tin;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -17,11 +18,8 @@ pub const ROUND: f64 = 100.0;
 /// is `p` bit for bit for every vertex `p`: with `|p − origin| ≤ |p|` the difference is a multiple of the unit in the last
 /// place of `p` that fits the digits of a double.
 pub fn around<'a>(meshes: impl IntoIterator<Item = &'a Tin>) -> DVec3 {
-    let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let (min, max) = meshes
-        .into_iter()
-        .flat_map(|tin| (0..tin.vertices.len()).map(|i| tin.world(i).truncate()))
-        .fold(empty, |(lo, hi), p| (lo.min(p), hi.max(p)));
+    let places = meshes.into_iter().flat_map(|tin| (0..tin.vertices.len()).map(|i| tin.world(i).truncate()));
+    let PlanBox { lo: min, hi: max } = PlanBox::of(places);
     let pick = |lo: f64, hi: f64| {
         let nearest = if lo <= 0.0 && hi >= 0.0 { 0.0 } else { lo.abs().min(hi.abs()) };
         if nearest.is_finite() && nearest > hi - lo + ROUND { (lo / ROUND).floor() * ROUND } else { 0.0 }

@@ -7,4 +7,6 @@ pub(crate) mod build;
 pub(crate) mod lines;
 pub(crate) mod measure;
 pub(crate) mod oracle;
+#[path = "../../src/kernel/testing.rs"]
+pub(crate) mod random;
 pub(crate) mod schema;

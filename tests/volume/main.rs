@@ -8,7 +8,11 @@ mod outside;
 mod textbook;
 mod within;
 
+#[path = "../../src/kernel/testing.rs"]
+mod random;
+
 use glam::{DVec2, DVec3};
+use random::Random;
 use slopegen::kernel::frame::Frame;
 use slopegen::model::Terrain;
 use slopegen::overlay::{Between, between};
@@ -16,16 +20,6 @@ use spade::{DelaunayTriangulation, Point2, Triangulation as _};
 
 /// World coordinates as they occur in UTM, on the grid of [`snapped`].
 const UTM: DVec2 = DVec2::new(524_288.0, 5_242_880.0);
-
-/// Pseudo-random numbers in [0, 1).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
 
 /// Rounds to a multiple of 2⁻²⁰, so that moving to [`UTM`] and back rounds nothing.
 fn snapped(v: f64) -> f64 {
@@ -46,12 +40,12 @@ fn delaunay(points: impl IntoIterator<Item = DVec2>, z: impl Fn(DVec2) -> f64) -
 
 /// A random TIN over the square from `lo` to `lo + side`, its corners included.
 fn random(seed: u64, count: usize, lo: DVec2, side: f64, z: impl Fn(DVec2) -> f64) -> Terrain {
-    let mut random = Random(seed.wrapping_mul(77_777));
+    let mut random = Random::new(seed);
     for _ in 0..4 {
-        random.next();
+        random.unit();
     }
     let corners = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)].map(DVec2::from);
-    let inner: Vec<DVec2> = (0..count).map(|_| DVec2::new(random.next(), random.next())).collect();
+    let inner: Vec<DVec2> = (0..count).map(|_| DVec2::new(random.unit(), random.unit())).collect();
     delaunay(corners.into_iter().chain(inner).map(|p| (lo + p * side).to_array().map(snapped).into()), z)
 }
 
@@ -67,8 +61,8 @@ fn changed(mesh: &Terrain, change: impl Fn(DVec3) -> DVec3) -> Terrain {
 /// Moved to [`UTM`], in a frame of its own.
 fn far(mesh: &Terrain) -> Terrain {
     let moved = changed(mesh, |p| p + UTM.extend(0.0));
-    let (lo, hi) = moved.plan_box();
-    moved.in_frame(Frame::around(lo, hi))
+    let plan = moved.plan_box();
+    moved.in_frame(Frame::around(plan.lo, plan.hi))
 }
 
 fn volume(design: &Terrain, existing: &Terrain) -> Between {

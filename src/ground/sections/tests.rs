@@ -68,7 +68,7 @@ fn textbook_embankment() {
 /// Edges along a section are found whatever rounding does to the pieces on both sides of them, and counted once.
 #[test]
 fn rounding_does_not_hide_an_edge() {
-    let random = &mut Random(7);
+    let random = &mut Random::new(7);
     for _ in 0..50 {
         let mut pieces = embankment(100.0, 10.0, 6.0, |_| 2.0);
         for corner in pieces.iter_mut().flat_map(|piece| &mut piece.1) {
@@ -193,7 +193,7 @@ proptest! {
     /// The tree passes over no plane that a polygon touches.
     #[test]
     fn every_plane_that_crosses_is_found(seed: u64, count in 0_usize..70, bend in -0.3..0.3) {
-        let random = &mut Random(seed);
+        let random = &mut Random::new(seed);
         let mut direction = random.between(0.0, std::f64::consts::TAU);
         let mut point = DVec2::new(random.between(-1e3, 1e3), 0.0);
         let mut planes = Vec::new();
@@ -237,7 +237,7 @@ proptest! {
     /// Mirrored heights swap cut and fill; works seen from the other end of the line have left and right swapped.
     #[test]
     fn mirrors(seed: u64) {
-        let random = &mut Random(seed);
+        let random = &mut Random::new(seed);
         let mut strips = Vec::new();
         for (from, to) in [(-9.0, -4.0), (-4.0, 0.5), (0.5, 7.0)] {
             let h = [0, 1, 2].map(|_| random.between(-1.0, 1.0));

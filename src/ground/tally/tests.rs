@@ -129,7 +129,7 @@ fn pieces_that_are_none() {
 
 /// A convex polygon: points of an ellipse at ascending angles, with linear height and station.
 fn convex(seed: u64, count: usize, length: f64) -> Vec<Corner> {
-    let random = &mut Random(seed);
+    let random = &mut Random::new(seed);
     let centre = DVec2::new(random.between(-50.0, 50.0), random.between(-50.0, 50.0));
     let size = DVec2::new(random.between(0.1, 20.0), random.between(0.1, 20.0));
     let (h, s) = ([0, 1, 2].map(|_| random.between(-1.0, 1.0)), [0, 1].map(|_| random.between(-2.0, 2.0)));

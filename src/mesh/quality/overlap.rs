@@ -10,6 +10,7 @@ use super::finding::{Collector, Kind};
 use super::weld;
 use crate::kernel::box_tree::BoxTree;
 use crate::kernel::orientation::{Turn, turn};
+use crate::kernel::plan_box::PlanBox;
 use crate::kernel::segment_tree::SegmentTree;
 use glam::DVec2;
 use std::cmp::Ordering;
@@ -30,13 +31,7 @@ pub(super) fn overlaps(faces: &Faces<'_>, hairline: f64, keep: usize) -> [Collec
         return [deep, hair, unfinished];
     }
     let flat = |f: &usize| matches!(faces.facing[*f], Facing::Up | Facing::Down);
-    let boxes: Vec<(u32, (DVec2, DVec2))> = (0..faces.len())
-        .filter(flat)
-        .map(|f| {
-            let [a, b, c] = faces.plan_up(f);
-            (f as u32, (a.min(b).min(c), a.max(b).max(c)))
-        })
-        .collect();
+    let boxes: Vec<(u32, PlanBox)> = (0..faces.len()).filter(flat).map(|f| (f as u32, PlanBox::of(faces.plan_up(f)))).collect();
     let mut visits = 0;
     BoxTree::new(&boxes).pairs(|i, j| {
         visits += 1;

@@ -74,8 +74,7 @@ impl Depths {
     }
 
     /// Marks the greatest depths.
-    pub(super) fn marks(&self, svg: &mut Svg, map: &Map, scene: &Scene<'_>, labels: &mut Labels) {
-        let _ = scene;
+    pub(super) fn marks(&self, svg: &mut Svg, map: &Map, labels: &mut Labels) {
         for (deepest, sign, class) in [(&self.cut, -1.0, "cut"), (&self.fill, 1.0, "fill")] {
             let Some(deepest) = deepest else { continue };
             let at = map.at(deepest.at);

@@ -1,6 +1,7 @@
-//! What stands around the map: coordinates, north arrow, scale bar, legend.
+//! What stands on and around the map: grid crosses, coordinates, north arrow.
 
 use super::map::Map;
+use crate::kernel::plan_box::PlanBox;
 use crate::plot::labels::width;
 use crate::plot::scale::{decimals, figure, multiples, round_step};
 use crate::plot::style::SMALL;
@@ -16,7 +17,7 @@ const ARM: f64 = 4.0;
 /// Multiples of the grid step in the map: eastings, northings, the step.
 fn grid(map: &Map) -> (Vec<f64>, Vec<f64>, f64) {
     let step = round_step(GRID / map.scale);
-    let (lo, hi) = map.world();
+    let PlanBox { lo, hi } = map.world();
     (multiples(lo.x, hi.x, step), multiples(lo.y, hi.y, step), step)
 }
 

@@ -11,7 +11,7 @@ use crate::plot::course::Course;
 use crate::plot::labels::{Labels, width};
 use crate::plot::legend::{Block, Sample};
 use crate::plot::lines::{Stroke, simplified};
-use crate::plot::scale::{decimals, figure, round_step};
+use crate::plot::scale::{decimals, figure, is_multiple, round_step};
 use crate::plot::style::SMALL;
 use crate::plot::svg::{Path, Svg};
 use glam::DVec2;
@@ -120,8 +120,7 @@ impl<'a> LineWork<'a> {
     }
 
     /// Draws the lines, each kind as one path.
-    pub(super) fn draw(&self, svg: &mut Svg, map: &Map) {
-        let _ = map;
+    pub(super) fn draw(&self, svg: &mut Svg) {
         for (kind, class, _) in KINDS {
             let class = self.class(kind, class);
             let of_kind = || self.features.iter().filter(|(f, _)| f.kind == kind);
@@ -154,12 +153,6 @@ impl<'a> LineWork<'a> {
             label_along(svg, map, stroke, &figure(z, digits(z)), "s m halo", labels, |_| true);
         }
     }
-}
-
-/// Whether a number is a multiple of a step, up to rounding.
-fn is_multiple(value: f64, step: f64) -> bool {
-    let share = value / step;
-    (share - share.round()).abs() < 1e-6
 }
 
 /// The least distance between levels; `None` where not all are multiples of it.

@@ -1,6 +1,7 @@
 //! From the ground to paper.
 
 use crate::kernel::frame::Frame;
+use crate::kernel::plan_box::PlanBox;
 use crate::plot::Scene;
 use crate::plot::lines::Stroke;
 use glam::{DVec2, DVec3};
@@ -30,9 +31,8 @@ impl Map {
         let frame = scene.design.frame;
         let given = scene.line.chains.iter().flat_map(|chain| &chain.vertices).map(|v| frame.to_local(*v));
         let used = scene.design.triangles.iter().flatten().map(|v| scene.design.vertices[*v as usize]);
-        let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        let (lo, hi) = given.chain(used).map(DVec3::truncate).fold(empty, |(lo, hi), p| (lo.min(p), hi.max(p)));
-        let extent = hi - lo;
+        let around = PlanBox::of(given.chain(used).map(DVec3::truncate));
+        let extent = around.size();
         if !(extent.max_element() > 0.0 && extent.max_element().is_finite()) {
             return None;
         }
@@ -41,8 +41,7 @@ impl Map {
         let scale = (inner / extent.x).min(tallest / extent.y);
         let height = (extent.y * scale + 2.0 * AROUND).max(FLATTEST * width).ceil();
         let size = DVec2::new(width, height);
-        let middle = 0.5 * (lo + hi);
-        let corner = middle + 0.5 * DVec2::new(-size.x, size.y) / scale;
+        let corner = around.middle() + 0.5 * DVec2::new(-size.x, size.y) / scale;
         Some(Self { frame, corner, size, scale })
     }
 
@@ -67,16 +66,16 @@ impl Map {
         stroke
     }
 
-    /// What the map shows, in the local frame: lower left and upper right.
-    pub(super) fn local(&self) -> (DVec2, DVec2) {
+    /// What the map shows, in the local frame.
+    pub(super) fn local(&self) -> PlanBox {
         let extent = self.size / self.scale;
-        (self.corner - DVec2::new(0.0, extent.y), self.corner + DVec2::new(extent.x, 0.0))
+        PlanBox { lo: self.corner - DVec2::new(0.0, extent.y), hi: self.corner + DVec2::new(extent.x, 0.0) }
     }
 
     /// The same in the world.
-    pub(super) fn world(&self) -> (DVec2, DVec2) {
-        let (lo, hi) = self.local();
-        (lo + self.frame.origin(), hi + self.frame.origin())
+    pub(super) fn world(&self) -> PlanBox {
+        let PlanBox { lo, hi } = self.local();
+        PlanBox { lo: lo + self.frame.origin(), hi: hi + self.frame.origin() }
     }
 
     /// Whether the map shows a point, `margin` px within its edge.

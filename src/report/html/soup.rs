@@ -1,5 +1,6 @@
 //! Triangles to look at: cut to a box, thinned to a number a page can carry. Figures never come from here.
 
+use crate::kernel::plan_box::PlanBox;
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
@@ -19,13 +20,12 @@ const MOST_STEPS: usize = 200;
 
 impl Soup {
     /// The part of a mesh inside a plan box. Triangles across its edge are cut there.
-    pub(super) fn clipped(vertices: &[DVec3], triangles: &[[u32; 3]], [lo, hi]: [DVec2; 2]) -> Self {
+    pub(super) fn clipped(vertices: &[DVec3], triangles: &[[u32; 3]], PlanBox { lo, hi }: PlanBox) -> Self {
         let mut soup = Self::default();
         let mut numbers: FxHashMap<u32, u32> = FxHashMap::default();
         for triangle in triangles {
             let corners = triangle.map(|v| vertices[v as usize]);
-            let plan = corners.map(|c| c.truncate());
-            let (least, most) = (plan[0].min(plan[1]).min(plan[2]), plan[0].max(plan[1]).max(plan[2]));
+            let PlanBox { lo: least, hi: most } = PlanBox::of(corners.map(|c| c.truncate()));
             if most.cmplt(lo).any() || least.cmpgt(hi).any() {
                 continue;
             }
@@ -60,10 +60,7 @@ impl Soup {
         if self.triangles.len() <= most {
             return None;
         }
-        let (lo, hi) = self.vertices.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(lo, hi), v| {
-            let plan = v.truncate();
-            (lo.min(plan), hi.max(plan))
-        });
+        let PlanBox { lo, hi } = PlanBox::of(self.vertices.iter().map(|v| v.truncate()));
         let size = hi - lo;
         // A grid of cells has two triangles for each.
         let mut cell = (2.0 * size.x * size.y / most.max(1) as f64).sqrt().max(size.max_element() / most.max(1) as f64);
@@ -148,15 +145,18 @@ mod tests {
     #[test]
     fn a_box_cuts_a_mesh_to_its_own_area_and_plane() {
         let (vertices, triangles) = grid(10);
-        let within = [DVec2::new(2.25, 3.5), DVec2::new(7.75, 8.125)];
+        let within = PlanBox { lo: DVec2::new(2.25, 3.5), hi: DVec2::new(7.75, 8.125) };
         let soup = Soup::clipped(&vertices, &triangles, within);
         assert!((area(&soup) - 5.5 * 4.625).abs() < 1e-12);
-        assert!(soup.vertices.iter().all(|v| v.truncate().cmpge(within[0]).all() && v.truncate().cmple(within[1]).all()));
+        assert!(soup.vertices.iter().all(|v| PlanBox::of([v.truncate()]).meets(&within)));
         assert!(soup.vertices.iter().all(|v| (v.z - v.x - 2.0 * v.y).abs() < 1e-12));
         // One triangle around the whole box becomes the box.
         let around = [DVec3::new(-100.0, -100.0, 5.0), DVec3::new(300.0, -100.0, 5.0), DVec3::new(0.0, 300.0, 5.0)];
         assert!((area(&Soup::clipped(&around, &[[0, 1, 2]], within)) - 5.5 * 4.625).abs() < 1e-9);
-        assert_eq!(Soup::clipped(&vertices, &triangles, [DVec2::splat(20.0), DVec2::splat(30.0)]), Soup::default());
+        assert_eq!(
+            Soup::clipped(&vertices, &triangles, PlanBox { lo: DVec2::splat(20.0), hi: DVec2::splat(30.0) }),
+            Soup::default()
+        );
     }
 
     #[test]

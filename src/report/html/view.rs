@@ -2,11 +2,12 @@
 
 use super::bytes;
 use super::soup::Soup;
+use crate::kernel::plan_box::PlanBox;
 use crate::mesh::drape::Drape;
 use crate::model::{CurveKind, LineFeature, Part, Tin};
 use crate::plot::{OnGround, Scene};
 use crate::write::EncodeError;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use rustc_hash::FxHashMap;
 use serde_json::{Map, Value, json};
 
@@ -53,10 +54,13 @@ pub(super) fn view(
     [most_works, most_ground]: [usize; 2],
 ) -> Result<Option<View>, EncodeError> {
     let design = scene.design;
-    let Some((lo, hi)) = plan_box(&design.vertices) else { return Ok(None) };
+    if design.vertices.is_empty() {
+        return Ok(None);
+    }
+    let around = design.plan_box();
     let lowest = design.vertices.iter().map(|v| v.z).fold(f64::INFINITY, f64::min);
     // On whole numbers, so that the readout of the view adds nothing odd.
-    let origin = (0.5 * (lo + hi)).extend(lowest).round();
+    let origin = around.middle().extend(lowest).round();
     let unit = scene.unit.label();
     let mut notes = Vec::new();
     let mut thin = |soup: &mut Soup, what: &str, most: usize| {
@@ -77,7 +81,7 @@ pub(super) fn view(
     };
     match &scene.ground {
         Some(ground) => {
-            let (mut works, missing) = pieces(design, ground, [lo, hi]);
+            let (mut works, missing) = pieces(design, ground, around);
             thin(&mut works, "mesh of the works", most_works);
             put("works", &works)?;
             if missing {
@@ -86,10 +90,11 @@ pub(super) fn view(
                 thin(&mut bare, "design", most_works);
                 put("bare", &bare)?;
             }
-            let margin = DVec2::splat(AROUND * (hi - lo).max_element());
-            let mut around = Soup::clipped(&ground.terrain.vertices, &ground.terrain.triangles, [lo - margin, hi + margin]);
-            thin(&mut around, "existing ground", most_ground);
-            put("ground", &around)?;
+            let margin = AROUND * around.size().max_element();
+            let shown = PlanBox { lo: around.lo - margin, hi: around.hi + margin };
+            let mut before = Soup::clipped(&ground.terrain.vertices, &ground.terrain.triangles, shown);
+            thin(&mut before, "existing ground", most_ground);
+            put("ground", &before)?;
         }
         None => {
             let mut works = by_part(design);
@@ -113,11 +118,6 @@ pub(super) fn view(
     Ok(Some(View { data: Value::Object(data).to_string().replace('<', "\\u003c"), notes }))
 }
 
-fn plan_box(vertices: &[DVec3]) -> Option<(DVec2, DVec2)> {
-    let first = vertices.first()?.truncate();
-    Some(vertices.iter().fold((first, first), |(lo, hi), v| (lo.min(v.truncate()), hi.max(v.truncate()))))
-}
-
 fn mesh(soup: &Soup, origin: DVec3) -> Result<Value, EncodeError> {
     let mut mesh = Map::new();
     mesh.insert("position".to_owned(), bytes::points(&soup.vertices, origin)?.into());
@@ -130,8 +130,8 @@ fn mesh(soup: &Soup, origin: DVec3) -> Result<Value, EncodeError> {
 
 /// The works with design minus ground at each corner, linear over each triangle; and whether some of the design is beside them,
 /// because it lies over no ground.
-fn pieces(design: &Tin, on: &OnGround<'_>, [lo, hi]: [DVec2; 2]) -> (Soup, bool) {
-    let ground = Drape::new(&on.terrain.vertices, &on.terrain.triangles, Some((lo, hi)));
+fn pieces(design: &Tin, on: &OnGround<'_>, around: PlanBox) -> (Soup, bool) {
+    let ground = Drape::new(&on.terrain.vertices, &on.terrain.triangles, Some(around));
     let mut soup = Soup::default();
     let mut numbers: FxHashMap<[u64; 2], u32> = FxHashMap::default();
     let mut outline = Vec::new();
@@ -193,7 +193,7 @@ fn lines(scene: &Scene<'_>, origin: DVec3) -> Result<(Value, Vec<&'static str>),
             continue;
         }
         if count > room {
-            dropped.push(kind.title());
+            dropped.push(title(kind));
             continue;
         }
         room -= count;
@@ -204,18 +204,16 @@ fn lines(scene: &Scene<'_>, origin: DVec3) -> Result<(Value, Vec<&'static str>),
     Ok((shown.into(), dropped))
 }
 
-impl CurveKind {
-    /// Name in the words of the page, plural where there are many.
-    pub(super) fn title(self) -> &'static str {
-        match self {
-            Self::LevelCurve => "level curves",
-            Self::Ridge => "ridges",
-            Self::Valley => "valleys",
-            Self::Hinge => "hinge",
-            Self::Breakline => "breaklines",
-            Self::Boundary => "boundary",
-            Self::Daylight => "daylight line",
-            Self::Zero => "zero line",
-        }
+/// A kind in the words of the page, plural where there are many.
+fn title(kind: CurveKind) -> &'static str {
+    match kind {
+        CurveKind::LevelCurve => "level curves",
+        CurveKind::Ridge => "ridges",
+        CurveKind::Valley => "valleys",
+        CurveKind::Hinge => "hinge",
+        CurveKind::Breakline => "breaklines",
+        CurveKind::Boundary => "boundary",
+        CurveKind::Daylight => "daylight line",
+        CurveKind::Zero => "zero line",
     }
 }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::kernel::testing::Random;
 use crate::model::Place;
 use glam::DVec3;
 
@@ -113,24 +114,20 @@ fn rings_inside_rings_are_told() {
 /// The tree must find what comparing every pair finds.
 #[test]
 fn agrees_with_comparing_every_pair() {
-    let mut state = 1u64;
-    let mut random = move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) as f64 / f64::from(1u32 << 31)
-    };
+    let mut random = Random::new(1);
     let mut bad = 0;
     for round in 0..400 {
         let n = 3 + (7 * round) % 200;
         // A star-shaped ring is simple; shifting one vertex across makes some of them cross. Coarse grids make touches.
         let mut points: Vec<(f64, f64)> = (0..n)
             .map(|i| {
-                let angle = std::f64::consts::TAU * (i as f64 + 0.8 * random()) / n as f64;
-                let radius = 50.0 + 50.0 * random();
+                let angle = std::f64::consts::TAU * (i as f64 + 0.8 * random.unit()) / n as f64;
+                let radius = random.between(50.0, 100.0);
                 (5e5 + radius * angle.cos(), 5e6 + radius * angle.sin())
             })
             .collect();
         if round % 2 == 0 {
-            points[n / 2] = (5e5 + 100.0 * random(), 5e6 + 100.0 * random());
+            points[n / 2] = (random.between(5e5, 5e5 + 100.0), random.between(5e6, 5e6 + 100.0));
         }
         if round % 3 == 0 {
             points.iter_mut().for_each(|p| *p = ((p.0 / 10.0).round() * 10.0, (p.1 / 10.0).round() * 10.0));
@@ -162,15 +159,11 @@ fn agrees_with_comparing_every_pair() {
 #[test]
 fn crossing_agrees_with_the_intersection_matrix() {
     use geo::{Relate, coordinate_position::CoordPos, dimensions::Dimensions};
-    let mut state = 7u64;
-    let mut random = move |n: u64| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) % n
-    };
+    let mut random = Random::new(7);
     let polygon = |points: &[(f64, f64)]| geo::Polygon::new(geo::LineString::from(points.to_vec()), vec![]);
     let (mut crossing, mut touching, mut same) = (0, 0, 0);
     for round in 0..100_000 {
-        let mut ring = || (0..3 + random(3)).map(|_| (random(5) as f64, random(5) as f64)).collect::<Vec<_>>();
+        let mut ring = || (0..3 + random.below(3)).map(|_| (random.below(5) as f64, random.below(5) as f64)).collect::<Vec<_>>();
         let (a, mut b) = (ring(), ring());
         if round % 50 == 0 {
             b = a.iter().rev().copied().collect();
