@@ -1,15 +1,9 @@
 //! How two segments meet, and on which side of a ring another ring passes where they touch.
 
 use super::Segment;
+pub(super) use crate::kernel::orientation::doubled_area as orient;
 use crate::model::Chain;
 use glam::DVec2;
-use robust::Coord;
-
-/// Twice the signed area of the triangle, its sign exact: positive when counter-clockwise.
-pub(super) fn orient(a: DVec2, b: DVec2, c: DVec2) -> f64 {
-    let coord = |p: DVec2| Coord { x: p.x, y: p.y };
-    robust::orient2d(coord(a), coord(b), coord(c))
-}
 
 /// How two segments meet.
 #[derive(Clone, Copy, Debug, PartialEq)]
