@@ -81,9 +81,8 @@ fn read_line(input: &LineInput, observer: &watch::Stopwatch<'_>) -> Result<Given
         formed.notes.iter().for_each(|note| observer.note(note));
         line = formed.line;
     }
-    let formed = formation::place(line, &raw.source.label, input.tolerance)?;
-    formed.notes.iter().for_each(|note| observer.note(note));
-    Ok(Given { line: formed.line, source: raw.source, unit })
+    let line = formation::place(line, &raw.source.label, input.tolerance)?;
+    Ok(Given { line, source: raw.source, unit })
 }
 
 /// Refuses segments as steep as the slope.

@@ -30,7 +30,7 @@ fn checked(features: &[String]) -> Line {
 }
 
 fn placed(features: &[String]) -> Result<Line, String> {
-    formation::place(checked(features), "pad.geojson", TOLERANCE).map(|formed| formed.line).map_err(|e| e.to_string())
+    formation::place(checked(features), "pad.geojson", TOLERANCE).map_err(|e| e.to_string())
 }
 
 fn with(breaklines: &[(&str, &str)]) -> Result<Line, String> {
@@ -159,7 +159,7 @@ fn kerbs_on_a_road() {
     let line = formation::widen(&line, "a", &formation).unwrap().line;
     // The line across meets the kerb at another height.
     assert!(formation::place(line.clone(), "a", TOLERANCE).is_err());
-    let line = formation::place(line, "a", 0.2).unwrap().line;
+    let line = formation::place(line, "a", 0.2).unwrap();
     let surface = build(&line, &design(0.5, Extent::Height(3.0)));
     close(platform(&surface).0, 800.0);
     let stations: Vec<f64> = surface.platform_stations.iter().map(|s| s.station).collect();

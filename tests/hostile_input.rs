@@ -1,5 +1,6 @@
 //! Nothing a file can contain may panic, hang or be taken for a line it is not.
 
+#[allow(dead_code, reason = "shared, and used in part")]
 #[path = "../src/kernel/testing.rs"]
 mod random;
 

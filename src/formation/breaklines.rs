@@ -1,9 +1,10 @@
 //! Breaklines in their place: which ring they lie in, and common vertices wherever they meet rings and each other.
 
+use super::FormationError;
 use super::nodes::Nodes;
 use super::widen::meetings;
-use super::{FormationError, Formed};
 use crate::kernel::orientation::{Turn, turn};
+use crate::kernel::segment;
 use crate::kernel::segment_tree::SegmentTree;
 use crate::model::{Breakline, Chain, Defect, Defects, Line, Role};
 use crate::validate::Locator;
@@ -33,16 +34,15 @@ type Stop = (u32, usize, f64);
 /// # Errors
 /// [`FormationError::Invalid`]: breaklines outside of all rings; lines that meet in plan at heights that differ by more than
 /// `tolerance`.
-pub fn place(line: Line, label: &str, tolerance: f64) -> Result<Formed, FormationError> {
+pub fn place(line: Line, label: &str, tolerance: f64) -> Result<Line, FormationError> {
     if line.breaklines.iter().all(|b| b.of.is_some()) {
-        return Ok(Formed { line, notes: Vec::new() });
+        return Ok(line);
     }
     let mut work =
         Work { label, line: &line, tolerance, nodes: Nodes::default(), strands: Vec::new(), defects: Defects::default() };
     work.gather();
     work.cross();
-    let placed = work.placed()?;
-    Ok(Formed { line: placed, notes: Vec::new() })
+    work.placed()
 }
 
 struct Work<'a> {
@@ -79,7 +79,7 @@ impl<'a> Work<'a> {
             if square < first && segment >= first {
                 let v = square / 2;
                 let (a, b) = ends[segment];
-                let distance = foot(vertices[v].truncate(), a, b).0;
+                let distance = segment::distance(vertices[v].truncate(), [a, b]);
                 if distance <= self.tolerance && distance < nearest[v].0 {
                     nearest[v] = (distance, rings[segment - first]);
                 }
@@ -109,7 +109,7 @@ impl<'a> Work<'a> {
         let (node, z) = if near(a).min(near(b)) <= self.tolerance {
             if near(a) <= near(b) { (from, a.z) } else { (to, b.z) }
         } else {
-            let (_, part) = foot(p, a.truncate(), b.truncate());
+            let part = segment::foot(p, [a.truncate(), b.truncate()]);
             let on = a.lerp(b, part);
             let node = self.nodes.at(on);
             if node != from && node != to {
@@ -194,7 +194,8 @@ impl<'a> Work<'a> {
     /// Puts a vertex of a ring into a segment of a breakline that passes within the tolerance.
     fn pass(&mut self, node: u32, strand: usize, i: usize) {
         let (a, b) = self.ends(strand, i);
-        let (distance, part) = foot(self.nodes.plan(node), a, b);
+        let at = self.nodes.plan(node);
+        let (distance, part) = (segment::distance(at, [a, b]), segment::foot(at, [a, b]));
         if distance <= self.tolerance && !self.pair(strand, i).contains(&node) && part > 0.0 && part < 1.0 {
             self.insert(strand, i, node);
         }
@@ -206,7 +207,7 @@ impl<'a> Work<'a> {
         let height = |work: &Self, strand: usize, i: usize| {
             let (a, b) = work.ends(strand, i);
             let [from, to] = work.pair(strand, i).map(|n| work.nodes.points[n as usize].z);
-            from + (to - from) * foot(at, a, b).1
+            from + (to - from) * segment::foot(at, [a, b])
         };
         let (z, other) = (height(self, s, k), height(self, t, l));
         let node = self.nodes.at(at.extend(z));
@@ -220,7 +221,7 @@ impl<'a> Work<'a> {
 
     fn insert(&mut self, strand: usize, i: usize, node: u32) {
         let (a, b) = self.ends(strand, i);
-        let (_, part) = foot(self.nodes.plan(node), a, b);
+        let part = segment::foot(self.nodes.plan(node), [a, b]);
         let between = &mut self.strands[strand].between[i];
         if between.iter().all(|(_, n)| *n != node) {
             between.push((part, node));
@@ -344,13 +345,6 @@ impl<'a> Work<'a> {
 fn locator<'a>(label: &'a str, place: &crate::model::Place) -> Locator<'a> {
     // One line alone: parts of features are not told apart here.
     Locator::of_features(label, &[place.feature])[0]
-}
-
-/// Distance of `p` from the segment and the part of the way to its foot.
-fn foot(p: DVec2, a: DVec2, b: DVec2) -> (f64, f64) {
-    let part = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
-    let part = if part.is_nan() { 0.0 } else { part };
-    (p.distance(a.lerp(b, part)), part)
 }
 
 /// Which ring's platform a place belongs to.

@@ -5,6 +5,7 @@
 //! are dropped, and the two that do cross meet in the crossing point. A stack of strokes does it in one pass.
 
 use crate::kernel::orientation::{Turn, turn};
+use crate::kernel::segment::{distance, foot};
 use glam::{DVec2, DVec3};
 
 /// The outside of a corner keeps its mitre up to this length, in halves of the width; the corner of a sharper one (a turn of more
@@ -71,9 +72,7 @@ impl Stroke {
 
     /// The point of the stroke at a plan position on it.
     fn at(&self, plan: DVec2) -> EdgePoint {
-        let along = self.to.plan - self.from.plan;
-        let part = ((plan - self.from.plan).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-        let part = if part.is_nan() { 0.0 } else { part };
+        let part = foot(plan, [self.from.plan, self.to.plan]);
         let between = |a: f64, b: f64| a + part * (b - a);
         EdgePoint {
             plan,
@@ -134,7 +133,8 @@ fn edge_point(centre: &Centre, vertex: usize, plan: DVec2, drop: f64) -> EdgePoi
     EdgePoint { plan, z: centre.heights[vertex] - drop, station: centre.stations[vertex], vertex, fold: None }
 }
 
-fn on_centre(centre: &Centre, vertex: usize) -> EdgePoint {
+/// A vertex of the centre line itself.
+pub(super) fn on_centre(centre: &Centre, vertex: usize) -> EdgePoint {
     edge_point(centre, vertex, centre.plan[vertex], 0.0)
 }
 
@@ -349,9 +349,8 @@ impl Centre {
     pub(super) fn nearest(&self, p: DVec2, range: std::ops::Range<usize>) -> (f64, f64) {
         let mut best = (self.stations[range.start], f64::INFINITY);
         for i in range {
-            let (a, b) = (self.plan[i], self.plan[i + 1]);
-            let part = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
-            let distance = p.distance(a.lerp(b, part));
+            let segment = [self.plan[i], self.plan[i + 1]];
+            let (part, distance) = (foot(p, segment), distance(p, segment));
             if distance < best.1 {
                 best = (self.stations[i] + part * (self.stations[i + 1] - self.stations[i]), distance);
             }

@@ -1,6 +1,6 @@
 //! Why there is no formation.
 
-use crate::model::Defects;
+use crate::model::{Defects, digits};
 
 /// Why a line has no formation. `Display` gives the whole message with places and cures, without the leading `error: `.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -96,8 +96,7 @@ fn narrow_cure(distance: f64, width: f64) -> String {
     /// Legs just one width apart touch; legs that cross leave no width at all. Parts of the width.
     const USEFUL: std::ops::Range<f64> = 1e-3..1.0 + 1e-9;
     if USEFUL.contains(&(distance / width)) {
-        let most = format!("{:.3}", down(distance));
-        let most = most.trim_end_matches('0').trim_end_matches('.');
+        let most = digits::fixed(down(distance), 3);
         return format!("give `--width` {most} or less, move the legs apart, or build them one by one");
     }
     "move the legs apart, take loops and small zigzags out of the line, or build the legs one by one".to_owned()

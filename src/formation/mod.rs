@@ -26,10 +26,10 @@ pub struct Formation {
     pub chord: f64,
 }
 
-/// A line with its formation, and what is worth knowing about it.
+/// A line with its roads, and what is worth knowing about them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formed {
-    /// The line: roads are rings, breaklines have their place.
+    /// The line: roads are rings.
     pub line: Line,
     /// What was done on the way.
     pub notes: Vec<Note>,

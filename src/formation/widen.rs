@@ -1,7 +1,7 @@
 //! From a centre line to the ring of its road.
 
 use super::breaklines::Inside;
-use super::edge::{Centre, EdgePoint, Fault, left};
+use super::edge::{Centre, EdgePoint, Fault, left, on_centre};
 use super::{Formation, FormationError, Formed};
 use crate::kernel::orientation::{Turn, turn};
 use crate::kernel::segment_tree::SegmentTree;
@@ -90,19 +90,12 @@ fn road(
     let note = fold_note(&chain.name, &[&lefts, &rights], formation.width);
 
     let last = chain.vertices.len() - 1;
-    let end = |vertex: usize| EdgePoint {
-        plan: centre.plan[vertex],
-        z: centre.heights[vertex],
-        station: centre.stations[vertex],
-        vertex,
-        fold: None,
-    };
     let mut points = distinct(lefts);
-    points.push(end(last));
+    points.push(on_centre(&centre, last));
     let mut back = distinct(rights);
     back.reverse();
     points.append(&mut back);
-    points.push(end(0));
+    points.push(on_centre(&centre, 0));
     check_itself(&points, &centre, formation.width).map_err(refused)?;
 
     let origin = chain.vertices[0].truncate();

@@ -5,6 +5,7 @@ pub mod dd;
 pub mod frame;
 pub mod orientation;
 pub mod plan_box;
+pub mod segment;
 pub mod segment_tree;
 pub mod sum;
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Lines on paper: fewer points where nobody sees the difference, and never more than there is room for.
 
 use crate::kernel::plan_box::PlanBox;
+use crate::kernel::segment::distance;
 use glam::DVec2;
 
 /// A polyline or outline in px. An outline does not repeat its first point.
@@ -70,7 +71,7 @@ fn thinned(points: &[DVec2], tolerance: f64) -> Vec<DVec2> {
         let (a, b) = (points[from], points[to]);
         let mut worst = (tolerance, None);
         for (i, p) in points.iter().enumerate().take(to).skip(from + 1) {
-            let off = distance(*p, a, b);
+            let off = distance(*p, [a, b]);
             if off > worst.0 {
                 worst = (off, Some(i));
             }
@@ -82,14 +83,6 @@ fn thinned(points: &[DVec2], tolerance: f64) -> Vec<DVec2> {
         }
     }
     points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(p, _)| *p).collect()
-}
-
-/// Distance of a point from a piece of a straight line.
-fn distance(p: DVec2, a: DVec2, b: DVec2) -> f64 {
-    let along = b - a;
-    let length = along.length_squared();
-    let share = if length > 0.0 { ((p - a).dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
-    p.distance(a + along * share)
 }
 
 #[cfg(test)]
@@ -107,7 +100,7 @@ mod tests {
         let kept = simplified(std::slice::from_ref(&given), usize::MAX).remove(0).unwrap();
         assert!(kept.points.len() < 200, "{}", kept.points.len());
         for p in &given.points {
-            let off = kept.points.windows(2).map(|ends| distance(*p, ends[0], ends[1])).fold(f64::INFINITY, f64::min);
+            let off = kept.points.windows(2).map(|ends| distance(*p, [ends[0], ends[1]])).fold(f64::INFINITY, f64::min);
             assert!(off <= FINE + 1e-12);
         }
     }

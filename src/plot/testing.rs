@@ -63,7 +63,7 @@ pub(super) fn kit(name: &str, points: &[[f64; 3]], closed: bool, width: Option<f
     if let Some(width) = width {
         let road = Formation { width, crossfall: Crossfall::default(), chord: 1e-3 };
         line = formation::widen(&line, name, &road).unwrap().line;
-        line = formation::place(line, name, 0.01).unwrap().line;
+        line = formation::place(line, name, 0.01).unwrap();
     }
     let mut site = Site::new(&line, terrain(x, y, z), "ground");
     let slope = Slope::from_ratio(1.0 / 1.5).unwrap();

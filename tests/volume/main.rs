@@ -8,6 +8,7 @@ mod outside;
 mod textbook;
 mod within;
 
+#[allow(dead_code, reason = "shared, and used in part")]
 #[path = "../../src/kernel/testing.rs"]
 mod random;
 
