@@ -1,6 +1,6 @@
 //! Soil takes more room when it is dug, less when it is compacted.
 
-use super::slope::rounded;
+use super::digits::rounded;
 use std::fmt;
 use std::ops::RangeInclusive;
 use std::str::FromStr;

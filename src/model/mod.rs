@@ -2,6 +2,7 @@
 
 pub mod bulking;
 pub mod design;
+pub(crate) mod digits;
 pub mod line;
 pub mod notation;
 pub mod note;

@@ -1,7 +1,7 @@
 //! How slopes are typed in.
 
 use super::Slope;
-use super::slope::rounded;
+use super::digits::rounded;
 use std::str::FromStr;
 
 /// Why a typed slope was refused.

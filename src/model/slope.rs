@@ -1,5 +1,6 @@
 //! The side slope.
 
+use super::digits::{MOST_DECIMALS, digits_before_point, rounded};
 use std::ops::RangeInclusive;
 
 /// A side slope: rise per run, the tangent of the angle against the horizontal. Positive and finite.
@@ -54,21 +55,6 @@ impl Slope {
         let unit = 10_f64.powi(4_i32.saturating_sub(digits_before_point(self.one_in())).clamp(0, MOST_DECIMALS));
         format!("1V:{}H", rounded((self.one_in() * (1.0 + ROUNDING) * unit).floor() / unit, 4))
     }
-}
-
-/// More decimals than any slope needs.
-const MOST_DECIMALS: i32 = 17;
-
-/// Digits of a number before the decimal point, from its decimal exponent.
-fn digits_before_point(value: f64) -> i32 {
-    (value.log10().floor() as i32).saturating_add(1)
-}
-
-/// A positive number rounded to `digits` significant ones, digits before the point always kept, no zeros at the end.
-pub(super) fn rounded(value: f64, digits: i32) -> String {
-    let decimals = digits.saturating_sub(digits_before_point(value)).clamp(0, MOST_DECIMALS);
-    let text = format!("{value:.*}", decimals as usize);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 #[cfg(test)]

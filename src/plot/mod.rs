@@ -26,6 +26,7 @@ pub use drawing::{Drawing, UnknownDrawing, file};
 pub use haul::mass_haul;
 pub use plan::plan;
 pub use profile::profile;
+pub use scale::round_step;
 pub use scene::{OnGround, Scene};
 pub use sections::sections;
 pub use style::{LEAST_WIDTH, MOST_WIDTH, Style, css};

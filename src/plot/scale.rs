@@ -1,7 +1,7 @@
 //! Round numbers: steps of scales, and figures with as many digits as their steps ask for.
 
 /// The least of 1, 2, 5 × 10ⁿ that is not less than `least`; 1 for what is no positive number.
-pub(super) fn round_step(least: f64) -> f64 {
+pub fn round_step(least: f64) -> f64 {
     if !(least > 0.0 && least.is_finite()) {
         return 1.0;
     }

@@ -14,7 +14,7 @@ use super::{Scene, Style};
 use crate::ground::{Section, place, sections_at};
 use crate::kernel::plan_box::PlanBox;
 use crate::mesh::drape::{Drape, Run};
-use crate::model::{Part, Tin};
+use crate::model::{Part, Tin, digits};
 use glam::{DVec2, DVec3};
 
 /// Most sections of one axis in one drawing; others are left out, which the last one tells.
@@ -207,8 +207,7 @@ fn steepest([a, b, c]: [DVec3; 3]) -> f64 {
 /// A slope as engineers write it: one vertical to so many horizontal; spelt out where that could be read either way.
 fn ratio(slope: f64) -> String {
     let run = 1.0 / slope;
-    let text = format!("{run:.2}");
-    let short = text.trim_end_matches('0').trim_end_matches('.');
+    let short = digits::fixed(run, 2);
     if run >= 0.995 { format!("1:{short}") } else { format!("1V:{short}H") }
 }
 

@@ -85,6 +85,14 @@ pub struct SlopeRange {
     pub max: SlopeFigures,
 }
 
+impl SlopeRange {
+    /// As `1V:1.5H`, or `1V:1.52H to 1V:1.5H` where the two differ.
+    pub fn short(self) -> String {
+        let (min, max) = (self.min.short(), self.max.short());
+        if min == max { max } else { format!("{min} to {max}") }
+    }
+}
+
 impl From<SectionSlope> for SlopeRange {
     fn from(range: SectionSlope) -> Self {
         Self { min: range.min.into(), max: range.max.into() }

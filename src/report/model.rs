@@ -198,6 +198,22 @@ pub struct SlopeFigures {
     pub degrees: f64,
 }
 
+impl SlopeFigures {
+    /// The four forms in words.
+    pub fn forms(self) -> String {
+        self.as_slope(Slope::forms)
+    }
+
+    /// As `1V:1.5H`.
+    pub fn short(self) -> String {
+        self.as_slope(Slope::short)
+    }
+
+    fn as_slope(self, words: fn(Slope) -> String) -> String {
+        Slope::from_ratio(self.ratio).map_or_else(|| self.ratio.to_string(), words)
+    }
+}
+
 impl From<Slope> for SlopeFigures {
     fn from(slope: Slope) -> Self {
         Self { ratio: slope.ratio(), one_in: slope.one_in(), percent: slope.percent(), degrees: slope.degrees() }

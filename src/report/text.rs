@@ -5,9 +5,10 @@ mod ground;
 
 pub(super) use between::ROUNDED;
 pub use between::{write_between, write_between_markdown};
+pub(super) use ground::in_percent;
 
 use super::page::{Column, Group, Page, Row, printable};
-use super::{BuriedStretch, Certificate, ExtentKind, LineFigures, Report, SlopeFigures, SurfaceFigures, Volumes};
+use super::{BuriedStretch, Certificate, ExtentKind, LineFigures, Report, SurfaceFigures, Volumes};
 use crate::model::Slope;
 use crate::write::EncodeError;
 use std::io::Write;
@@ -43,7 +44,7 @@ fn page(report: &Report) -> Page {
     page.section("Slope (true steepness, along the lines of steepest descent)");
     for (name, slope) in [("cut", report.slopes.cut), ("fill", report.slopes.fill)] {
         if let Some(slope) = slope {
-            page.words(name, &forms(slope));
+            page.words(name, &slope.forms());
             let seen = report.section_slope.and_then(|seen| if name == "cut" { seen.cut } else { seen.fill });
             if let Some(range) = seen {
                 ground::section_slope(&mut page, range);
@@ -172,11 +173,6 @@ fn volumes(page: &mut Page, v: &Volumes) {
     page.words("complete", if v.complete { "yes" } else { "NO, the slopes do not reach their end everywhere" });
     page.words("method", v.method_text);
     page.words("sign", v.sign_rule);
-}
-
-/// The four forms of a slope.
-fn forms(slope: SlopeFigures) -> String {
-    Slope::from_ratio(slope.ratio).map_or_else(|| slope.ratio.to_string(), Slope::forms)
 }
 
 /// A deviation in degrees. What is only rounding has no digits worth printing, and they differ between machines.

@@ -1,13 +1,11 @@
 //! Places of ground in messages.
 
-use crate::model::{Defect, Defects};
+use crate::model::{Defect, Defects, digits};
 use glam::DVec3;
 
 /// A number for a message: millimetres, without trailing zeros.
 pub(super) fn short(value: f64) -> String {
-    let text = format!("{value:.3}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".into() } else { text.into() }
+    digits::fixed(value, 3)
 }
 
 /// A point in world coordinates.

@@ -1,6 +1,7 @@
 //! Segments as steep as the slope, or steeper, cannot lie on a surface of that slope.
 
 use super::place::Locator;
+use crate::model::digits::{fixed, rounded};
 use crate::model::{Chain, Defect, Defects, Line, Slope};
 
 /// Refuses every segment with `|Δz| ≥ k·L`. Neighbouring steep segments are reported as one stretch, with its stations and
@@ -52,10 +53,10 @@ pub fn check_steepness(line: &Line, label: &str, slope: Slope) -> Result<(), Def
                         stations[from].min(if chain.axis.is_some() { stations[end] } else { stations[from] }),
                         stations[end].max(if chain.axis.is_some() { stations[from] } else { stations[end] }),
                         along_axis(chain, stations[from], stations[end]),
-                        significant(worst),
+                        rounded(worst, 4),
                         100.0 * worst,
                         worst.atan().to_degrees(),
-                        significant(slope.one_in()),
+                        rounded(slope.one_in(), 4),
                         slope.percent(),
                         slope.degrees()
                     )),
@@ -81,12 +82,6 @@ fn gradient((a, b): (glam::DVec3, glam::DVec3)) -> f64 {
     (b.z - a.z) / a.truncate().distance(b.truncate())
 }
 
-/// A number to four significant digits, without trailing zeros.
-fn significant(value: f64) -> String {
-    let digits = 3 - value.abs().log10().floor() as i32;
-    trimmed(format!("{value:.*}", digits.clamp(0, 12) as usize))
-}
-
 /// The flattest slope in three significant digits of its run that is steeper than `gradient`: `1:1.21`, or `1V:0.5H` where
 /// `1:0.5` would be ambiguous.
 fn flattest(gradient: f64) -> String {
@@ -101,13 +96,8 @@ fn flattest(gradient: f64) -> String {
         digits -= 1.0;
     }
     let n = digits / scale;
-    let text = trimmed(format!("{n:.*}", decimals as usize));
+    let text = fixed(n, decimals as usize);
     if n >= 1.0 { format!("1:{text}") } else { format!("1V:{text}H") }
-}
-
-/// A decimal number without trailing zeros.
-fn trimmed(text: String) -> String {
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ const KEY: usize = 44;
 /// Sections in the order shown, with the keys at the top of a report they hold. What has no section is in the last one.
 const SECTIONS: [(&str, &[&str]); 8] = [
     ("Inputs", &["inputs", "meshes", "terrain"]),
-    ("Parameters", &["units", "slopes", "extent", "section_slope", "levels"]),
+    ("Parameters", &["units", "design", "slopes", "extent", "section_slope", "levels"]),
     ("Line", &["line"]),
     ("Volumes", &["volumes"]),
     ("Areas and depths", &["areas", "depths", "daylight", "surface", "finished", "pads"]),

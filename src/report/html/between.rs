@@ -74,7 +74,7 @@ fn summary(report: &BetweenReport, units: Units<'_>) -> Markup {
             (tile("Fill", "fill", v.fill, "³", None))
             (tile("Net (cut − fill)", "", rest, "³", Some(v.balance.word())))
             (tile("Deepest cut", "cut", d.cut_max, "", None))
-            (tile("Highest fill", "fill", d.fill_max, "", None))
+            (tile("Deepest fill", "fill", d.fill_max, "", None))
             (tile("Area of cut", "cut", a.cut, "²", None))
             (tile("Area of fill", "fill", a.fill, "²", None))
         }

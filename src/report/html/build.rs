@@ -1,6 +1,6 @@
 //! The page of `build`.
 
-use super::parts::{Fact, Units, count, depths_head, depths_row, facts, forms, inputs, name, number, plain, point, short};
+use super::parts::{Fact, Units, count, depths_head, depths_row, facts, inputs, name, number, plain, point, title};
 use super::proof::{certificate, method, passed};
 use super::shell::{Page, Section, noted};
 use super::view::{MOST_TRIANGLES, View, view};
@@ -16,7 +16,7 @@ use std::io::Write;
 /// Most buried stretches listed.
 const MOST_BURIED: usize = 1000;
 
-/// Most warnings' worth of levels written out; of more the first and the last.
+/// Most elevations of level curves written out; of more the first and the last.
 const MOST_LEVELS: usize = 24;
 
 /// Writes the report of `build` as a page: figures, drawings and a 3D view, with cross-sections at the stations `asked` for, or at
@@ -50,15 +50,13 @@ pub(super) fn render(report: &Report, scene: &Scene<'_>, asked: &[f64]) -> Resul
     add("line", "Line and surface", Some(line(report, units)));
     add("inputs", "Inputs", Some(inputs(&report.inputs)));
     add("method", "Method and rule of signs", Some(method(report)));
-    let title = report.inputs.first().map_or("", |input| input.path.as_str());
-    let title = if title == "-" { "standard input" } else { title.rsplit(['/', '\\']).next().unwrap_or(title) };
     let page = Page {
         kind: if report.terrain.is_some() {
             "Earthworks report: cut and fill"
         } else {
             "Earthworks report: surface of constant slope"
         },
-        title,
+        title: title(&report.inputs),
         summary: summary(report, units),
         warnings: &report.warnings,
         sections,
@@ -121,13 +119,13 @@ fn tiles(report: &Report, units: Units<'_>) -> Markup {
             }
             @if let Some(d) = report.depths.as_ref().filter(|_| report.volumes.is_some()) {
                 (tile("Deepest cut", "cut", with(number(d.cut_max, 2), ""), at(d.cut_max_at.as_ref())))
-                (tile("Highest fill", "fill", with(number(d.fill_max, 2), ""), at(d.fill_max_at.as_ref())))
+                (tile("Deepest fill", "fill", with(number(d.fill_max, 2), ""), at(d.fill_max_at.as_ref())))
             }
             (tile("Works in plan", "", with(number(report.surface.plan_area, 0), "²"), None))
             (tile("Length of the line", "", with(number(report.line.length, 2), ""), report.line.width.map(|w| html! {
                 (plain(w, 2)) " " (unit) " wide" })))
             @for (title, slope) in [("Cut slope", report.slopes.cut), ("Fill slope", report.slopes.fill)] {
-                @if let Some(slope) = slope { (tile(title, "", html! { (short(slope)) }, Some(html! {
+                @if let Some(slope) = slope { (tile(title, "", html! { (slope.short()) }, Some(html! {
                     (plain(slope.percent, 1)) " % · " (plain(slope.degrees, 2)) "°" }))) }
             }
         }
@@ -200,12 +198,7 @@ fn model(report: &Report, scene: &Scene<'_>, view: &View) -> Markup {
 }
 
 fn slopes(report: &Report) -> Markup {
-    let seen = |range: Option<SlopeRange>| {
-        range.map_or_else(String::new, |range| {
-            let (min, max) = (short(range.min), short(range.max));
-            if min == max { max } else { format!("{min} to {max}") }
-        })
-    };
+    let seen = |range: Option<SlopeRange>| range.map_or_else(String::new, SlopeRange::short);
     let sections = report.section_slope;
     html! {
         div.scroll {
@@ -223,7 +216,7 @@ fn slopes(report: &Report) -> Markup {
                     ] {
                         @if let Some(slope) = slope {
                             tr {
-                                th.p.(class) scope="row" { (title) } td.w { (forms(slope)) }
+                                th.p.(class) scope="row" { (title) } td.w { (slope.forms()) }
                                 @if sections.is_some() { td.p { (seen(range)) } }
                             }
                         }

@@ -1,6 +1,6 @@
 //! The page of `check`: whether a mesh is sound and keeps its slope.
 
-use super::parts::{Fact, Units, count, facts, forms, inputs, name, number, plain};
+use super::parts::{Fact, Units, count, facts, inputs, name, number, plain, title};
 use super::shell::{Page, Section};
 use crate::report::CheckReport;
 use crate::report::check::{BoundFigures, FindingFigures, PartFigures, SlopesFigures, percent, place, share, verdict};
@@ -35,11 +35,9 @@ pub(super) fn render(report: &CheckReport) -> String {
     add("parts", "Parts", (report.parts.len() > 1).then(|| parts(&report.parts, units)));
     add("mesh", "Mesh", Some(mesh(report, units)));
     add("inputs", "Inputs", Some(inputs(&report.inputs)));
-    let title = report.inputs.first().map_or("", |input| input.path.as_str());
-    let title = if title == "-" { "standard input" } else { title.rsplit(['/', '\\']).next().unwrap_or(title) };
     let page = Page {
         kind: "Check of a surface",
-        title,
+        title: title(&report.inputs),
         summary: summary(report, units),
         warnings: &report.warnings,
         sections,
@@ -102,7 +100,7 @@ fn findings(findings: &[FindingFigures]) -> Markup {
 
 fn bound(b: &BoundFigures) -> Markup {
     let mut rows = vec![
-        Fact::new("Slope", html! { (forms(b.slope)) ", within " (b.tolerance_deg) "°" }),
+        Fact::new("Slope", html! { (b.slope.forms()) ", within " (b.tolerance_deg) "°" }),
         Fact::new(
             "Asked of",
             if b.parts.is_empty() {

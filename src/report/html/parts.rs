@@ -1,8 +1,7 @@
 //! Numbers and tables of the pages.
 
-use crate::model::Slope;
+use crate::report::Input;
 use crate::report::page::printable;
-use crate::report::{Input, SlopeFigures};
 use maud::{Markup, html};
 
 /// Digits before the point from which on they are grouped by threes.
@@ -90,19 +89,17 @@ pub(super) fn facts(caption: &str, rows: &[Fact]) -> Markup {
     }
 }
 
+/// The name of a job: that of its first input, without folders.
+pub(super) fn title(inputs: &[Input]) -> &str {
+    match inputs.first().map_or("", |input| input.path.as_str()) {
+        "-" => "standard input",
+        path => path.rsplit(['/', '\\']).next().unwrap_or(path),
+    }
+}
+
 /// Text from a file.
 pub(super) fn name(text: &str) -> Markup {
     html! { (printable(text)) }
-}
-
-/// The four forms of a slope.
-pub(super) fn forms(slope: SlopeFigures) -> String {
-    Slope::from_ratio(slope.ratio).map_or_else(|| slope.ratio.to_string(), Slope::forms)
-}
-
-/// A slope as `1V:1.5H`.
-pub(super) fn short(slope: SlopeFigures) -> String {
-    Slope::from_ratio(slope.ratio).map_or_else(|| slope.ratio.to_string(), Slope::short)
 }
 
 /// A depth's place.

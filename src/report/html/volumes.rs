@@ -1,6 +1,7 @@
 //! Cut and fill on the page of `build`: measured, with the change in volume of the soil, by part, by station.
 
 use super::parts::{Units, name, number, plain};
+use crate::report::text::in_percent;
 use crate::report::{Balance, BulkingFigures, CutFillFigures, PadRow, Report, StationRow, Volumes};
 use maud::{Markup, html};
 
@@ -21,9 +22,7 @@ pub(super) fn net(net: f64, balance: Balance, units: Units<'_>) -> Markup {
 
 /// A share as percent, with the digits it was typed with.
 pub(super) fn percent(share: f64) -> String {
-    /// Digits that a share is typed with.
-    const DIGITS: f64 = 1e10;
-    format!("{} %", (100.0 * share * DIGITS).round() / DIGITS).replace('-', "−")
+    format!("{} %", in_percent(share)).replace('-', "−")
 }
 
 pub(super) fn volumes(report: &Report, v: &Volumes, units: Units<'_>) -> Markup {

@@ -1,18 +1,12 @@
 //! What the report for people says about existing ground.
 
-use crate::model::Slope;
 use crate::report::page::{Column, Group, NAME, NUMBER, Page, Row, printable};
-use crate::report::{
-    BulkingFigures, CutFillFigures, DepthPlace, Depths, PadRow, Report, SlopeFigures, SlopeRange, StationRow, Volumes,
-};
+use crate::report::{BulkingFigures, CutFillFigures, DepthPlace, Depths, PadRow, Report, SlopeRange, StationRow, Volumes};
 use std::fmt::Write as _;
 
 /// The slope as a section perpendicular to the line shows it.
 pub(super) fn section_slope(page: &mut Page, range: SlopeRange) {
-    let short = |slope: SlopeFigures| Slope::from_ratio(slope.ratio).map_or_else(|| slope.ratio.to_string(), Slope::short);
-    let (min, max) = (short(range.min), short(range.max));
-    let range = if min == max { max } else { format!("{min} to {max}") };
-    page.words("  in section", &format!("{range} (perpendicular to the line)"));
+    page.words("  in section", &format!("{} (perpendicular to the line)", range.short()));
 }
 
 /// Existing ground, finished ground, daylight line.
@@ -21,7 +15,7 @@ pub(super) fn terrain(page: &mut Page, report: &Report) {
         page.section("Existing ground");
         page.count("vertices", terrain.vertices);
         page.count("triangles", terrain.triangles);
-        page.count("  under the works", terrain.triangles_used);
+        page.count("  near the works", terrain.triangles_used);
         page.length("lowest", terrain.z_min);
         page.length("highest", terrain.z_max);
         if let Some(areas) = report.areas {
@@ -71,10 +65,8 @@ pub(super) fn volumes(page: &mut Page, volumes: &Volumes) {
 
 /// What becomes of cut and fill when soil changes its volume.
 pub(super) fn bulking(page: &mut Page, soil: BulkingFigures) {
-    /// Digits that a share is typed with.
-    const DIGITS: f64 = 1e10;
-    let percent = |share: f64| (100.0 * share * DIGITS).round() / DIGITS;
-    page.section(&format!("Soil (swell {} %, shrink {} %)", percent(soil.swell), percent(soil.shrink)));
+    let [swell, shrink] = [soil.swell, soil.shrink].map(in_percent);
+    page.section(&format!("Soil (swell {swell} %, shrink {shrink} %)"));
     page.volume("cut in the ground", soil.cut_bank, " (bank)");
     page.volume("  dug", soil.cut_loose, " (loose)");
     page.volume("  compacted", soil.cut_compacted, "");
@@ -84,7 +76,14 @@ pub(super) fn bulking(page: &mut Page, soil: BulkingFigures) {
     page.volume("net in the ground", soil.net_bank, &format!(" (bank) {}", soil.balance.word()));
 }
 
-/// The places of the greatest depths.
+/// A share in percent, with the digits it was typed with.
+pub(in crate::report) fn in_percent(share: f64) -> f64 {
+    /// Digits that a share is typed with.
+    const DIGITS: f64 = 1e10;
+    (100.0 * share * DIGITS).round() / DIGITS
+}
+
+/// Greatest and mean depths, with the places of the greatest.
 pub(super) fn depths(page: &mut Page, depths: &Depths) {
     for (name, depth, mean, place) in [
         ("deepest cut", depths.cut_max, depths.cut_mean, depths.cut_max_at.as_ref()),

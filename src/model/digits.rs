@@ -1,0 +1,39 @@
+//! Numbers in messages: as many digits as are worth reading.
+
+/// More decimals than any number in a message needs.
+pub(crate) const MOST_DECIMALS: i32 = 17;
+
+/// Digits of a number before the decimal point, from its decimal exponent.
+pub(crate) fn digits_before_point(value: f64) -> i32 {
+    (value.log10().floor() as i32).saturating_add(1)
+}
+
+/// A positive number rounded to `digits` significant ones, digits before the point always kept, no zeros at the end.
+pub(crate) fn rounded(value: f64, digits: i32) -> String {
+    let decimals = digits.saturating_sub(digits_before_point(value)).clamp(0, MOST_DECIMALS);
+    fixed(value, decimals as usize)
+}
+
+/// A number with so many decimals at most, no zeros at the end, no sign before nought.
+pub(crate) fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let short = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if short == "-0" { "0".to_owned() } else { short.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_digit_that_says_nothing() {
+        for (value, decimals, text) in
+            [(1.5, 3, "1.5"), (-0.0001, 3, "0"), (-2.0, 3, "-2"), (100.0, 0, "100"), (1200.0, 2, "1200"), (0.125, 2, "0.12")]
+        {
+            assert_eq!(fixed(value, decimals), text);
+        }
+        for (value, digits, text) in [(1234.56, 3, "1235"), (0.012_345, 3, "0.0123"), (2.0, 4, "2"), (5e-324, 4, "0")] {
+            assert_eq!(rounded(value, digits), text);
+        }
+    }
+}
