@@ -35,6 +35,9 @@ const SAME_GRADIENT: f64 = 2e-5;
 /// Most gradients told apart in one drawing.
 const MOST_GRADIENTS: usize = 1000;
 
+/// Edges of a road this near the height of its centre line are not drawn, in the length unit: nobody builds to less.
+const SAME_HEIGHT: f64 = 1e-3;
+
 /// Pieces of ground this near each other along the axis, in the length unit, are one: gaps of rounding.
 const GAP: f64 = 1e-6;
 
@@ -69,6 +72,12 @@ pub(super) fn ground_along(scene: &Scene<'_>, course: &Course) -> Vec<Vec<DVec2>
     found
 }
 
+/// Whether the edges of a road lie elsewhere in the profile than its centre line.
+fn edges_apart(course: &Course) -> bool {
+    let apart = |p: &DVec2| height(&course.heights, p.x).is_some_and(|z| (z - p.y).abs() > SAME_HEIGHT);
+    course.edges.iter().flatten().any(apart)
+}
+
 /// Ends of the stretches of one gradient.
 fn gradients(heights: &[DVec2]) -> Vec<DVec2> {
     let mut kept: Vec<DVec2> = Vec::new();
@@ -100,7 +109,7 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
         return None;
     }
     let ground = ground_along(scene, &course);
-    let all = course.heights.iter().chain(ground.iter().flatten()).map(|p| p.y);
+    let all = course.heights.iter().chain(ground.iter().flatten()).chain(course.edges.iter().flatten()).map(|p| p.y);
     let (low, high) = range(all);
 
     let size_x = style.width() - LEFT - RIGHT;
@@ -121,6 +130,11 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     let mut between = Between::default();
     ground.iter().for_each(|run| between.add(&course.heights, run, 0.0, length));
     let mut blocks = vec![Block::symbol(Sample::Line("ln design"), "line")];
+    let has_edges = edges_apart(&course);
+    if has_edges {
+        blocks.push(Block::symbol(Sample::Line("ln edge"), "left edge"));
+        blocks.push(Block::symbol(Sample::Line("ln edge right"), "right edge"));
+    }
     if on_ground {
         blocks.push(Block::symbol(Sample::Line("ln ground"), "ground"));
         blocks.push(Block::symbol(Sample::Patch("c3"), "cut"));
@@ -155,6 +169,9 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     chart.lines(&mut svg, "c3", &between.cut, true);
     chart.lines(&mut svg, "f3", &between.fill, true);
     chart.lines(&mut svg, "ln ground", &ground, false);
+    for (edge, class) in course.edges.iter().zip(["ln edge", "ln edge right"]).filter(|_| has_edges) {
+        chart.lines(&mut svg, class, std::slice::from_ref(edge), false);
+    }
     chart.lines(&mut svg, "ln design", std::slice::from_ref(&course.heights), false);
     svg.rect("frame", chart.at, chart.size);
 

@@ -108,6 +108,8 @@ const SHAPES: &str = "\
 .plot .hinge{stroke-width:2.4}
 .plot .ground{stroke-width:1.6}
 .plot .design{stroke-width:2.4}
+.plot .edge{stroke-width:1}
+.plot .edge.right{stroke-dasharray:5 3}
 .plot .thin{stroke-width:1}
 .plot .lead{fill:none;stroke-width:.6}
 .plot .dot{stroke-width:1.6}
@@ -143,6 +145,7 @@ const COLOURS: &str = "\
 .plot .nought{fill:$nought}
 .plot text.cut{fill:$cut}
 .plot text.fill{fill:$fill}
+.plot .edge{stroke:$ink}
 .plot .thin{stroke:$ink}
 .plot .lead{stroke:$ink}
 .plot .dot{fill:$paper;stroke:$ink}

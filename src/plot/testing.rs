@@ -55,13 +55,22 @@ fn terrain(x: f64, y: f64, z: impl Fn(f64, f64) -> f64) -> Terrain {
 
 /// A line on ground `z` about a place far from the origin, as a road if a width is given.
 pub(super) fn kit(name: &str, points: &[[f64; 3]], closed: bool, width: Option<f64>, z: impl Fn(f64, f64) -> f64) -> Kit {
+    let road = width.map(|width| Formation { width, crossfall: Crossfall::default(), chord: 1e-3 });
+    formed(name, points, closed, road, z)
+}
+
+/// A road over [`hills`] with a crossfall.
+pub(super) fn road_with(points: &[[f64; 3]], width: f64, crossfall: Crossfall) -> Kit {
+    formed("road", points, false, Some(Formation { width, crossfall, chord: 1e-3 }), hills)
+}
+
+fn formed(name: &str, points: &[[f64; 3]], closed: bool, road: Option<Formation>, z: impl Fn(f64, f64) -> f64) -> Kit {
     let (x, y) = (500_000.0, 5_400_000.0);
     let role = if closed { Role::Outer { polygon: 0 } } else { Role::Open };
     let vertices: Vec<DVec3> = points.iter().map(|p| DVec3::new(x + p[0], y + p[1], p[2])).collect();
     let places = vec![Place::default(); vertices.len()];
     let mut line = Line { chains: vec![Chain { name: name.into(), role, vertices, places, axis: None }], ..Line::default() };
-    if let Some(width) = width {
-        let road = Formation { width, crossfall: Crossfall::default(), chord: 1e-3 };
+    if let Some(road) = road {
         line = formation::widen(&line, name, &road).unwrap().line;
         line = formation::place(line, name, 0.01).unwrap();
     }

@@ -1,11 +1,12 @@
 //! Drawings against the figures of the ground and the heights of the meshes.
 
-use super::between::Between;
+use super::between::{self, Between};
 use super::course::courses;
 use super::lines::Stroke;
 use super::plan::band_outlines;
-use super::testing::{Kit, kit, road, yard};
+use super::testing::{self, Kit, kit, road, yard};
 use super::*;
+use crate::formation::Crossfall;
 use crate::ground::place;
 use crate::mesh::drape::Drape;
 use crate::model::{Bulking, Tin};
@@ -59,6 +60,31 @@ fn profiles_are_heights_of_the_meshes() {
         let z = between::height(&course.heights, station).unwrap();
         assert!((z - on_design.at(at).unwrap().0).abs() < 0.01, "{station}");
     }
+}
+
+/// A road that falls 2 % to the left and rises 3 % to the right, half of it 3 wide: edges 0.06 below and 0.09 above the centre line.
+#[test]
+fn profiles_have_the_edges_of_roads() {
+    let points = [[-50.0, 0.0, 100.0], [0.0, 0.0, 102.0], [50.0, 0.0, 102.0]];
+    let edges = |left: f64, right: f64| {
+        let kit = testing::road_with(&points, 6.0, Crossfall { left, right });
+        let scene = kit.scene();
+        let course = courses(&scene).remove(0);
+        let text = profile(&scene, 0, &Style::INLINE).unwrap();
+        (course, text.contains("left edge") && text.contains("ln edge right"))
+    };
+    let (course, drawn) = edges(0.02, -0.03);
+    assert!(drawn);
+    for (edge, offset) in course.edges.iter().zip([-0.06, 0.09]) {
+        assert!(edge.first().unwrap().x < 1e-9 && edge.last().unwrap().x > 100.0 - 1e-9 && edge.len() == 3, "{edge:?}");
+        assert!(edge.windows(2).all(|pair| pair[0].x <= pair[1].x));
+        for p in edge {
+            let z = between::height(&course.heights, p.x).unwrap() + offset;
+            assert!((p.y - z).abs() < 1e-9, "{p}: {z}");
+        }
+    }
+    // Without crossfall they lie on the line of the centre.
+    assert!(!edges(0.0, 0.0).1);
 }
 
 /// The shaded areas of a section are those the figures of the ground have for it.
