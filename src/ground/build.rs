@@ -12,7 +12,6 @@ use super::trimmed::Trimmed;
 use super::works::{End, Flood, Sink, Works};
 use super::{GroundError, cell};
 use crate::kernel::frame::Frame;
-use crate::kernel::plan_box::PlanBox;
 use crate::kernel::sum::Sum;
 use crate::mesh::volume;
 use crate::model::{Design, Extent, Line, Note, Part, Sheet, Side, Slope, Terrain};
@@ -68,10 +67,13 @@ impl<'a> Site<'a> {
     /// Puts the ground into a frame that holds line and ground alike; `label` names the ground in messages.
     pub fn new(line: &'a Line, terrain: Terrain, label: &'a str) -> Self {
         let world = |p: DVec2| terrain.frame.to_world(p.extend(0.0)).truncate();
-        let ground = terrain.plan_box();
-        let given = line.chains.iter().flat_map(|chain| &chain.vertices).map(|v| v.truncate());
-        let all = given.fold(PlanBox { lo: world(ground.lo), hi: world(ground.hi) }, PlanBox::with);
-        let terrain = terrain.in_frame(Frame::around(all.lo, all.hi));
+        let (lo, hi) = terrain.plan_box();
+        let (mut lo, mut hi) = (world(lo), world(hi));
+        for v in line.chains.iter().flat_map(|chain| &chain.vertices) {
+            lo = lo.min(v.truncate());
+            hi = hi.max(v.truncate());
+        }
+        let terrain = terrain.in_frame(Frame::around(lo, hi));
         let bounds = Bounds::new(&terrain);
         Self { line, terrain, label, bounds, reaches: Vec::new(), ends: Vec::new(), first_patch: OnceLock::new() }
     }

@@ -47,14 +47,14 @@ pub(crate) struct Reach {
 impl Bounds {
     /// The bounds of a ground.
     pub(crate) fn new(terrain: &Terrain) -> Self {
-        let plan = terrain.plan_box();
-        let extent = plan.size().max(DVec2::splat(f64::MIN_POSITIVE));
+        let (lo, hi) = terrain.plan_box();
+        let extent = (hi - lo).max(DVec2::splat(f64::MIN_POSITIVE));
         let cells = (terrain.triangles.len() as f64 / TRIANGLES_PER_CELL).clamp(1.0, MOST_CELLS * MOST_CELLS);
         let across = |a: f64, b: f64| (cells * a / b).sqrt().ceil().clamp(1.0, MOST_CELLS);
         let size = [across(extent.x, extent.y) as usize, across(extent.y, extent.x) as usize];
         let cell = extent / DVec2::new(size[0] as f64, size[1] as f64);
         let range = vec![[f64::INFINITY, f64::NEG_INFINITY]; size[0] * size[1]];
-        let mut bounds = Self { origin: plan.lo, cell, size, range, places: Vec::new(), area: 0.0 };
+        let mut bounds = Self { origin: lo, cell, size, range, places: Vec::new(), area: 0.0 };
         bounds.places = terrain.vertices.iter().map(|v| [bounds.index(v.x, 0) as u16, bounds.index(v.y, 1) as u16]).collect();
         let mut range = std::mem::take(&mut bounds.range);
         let mut area = Sum::default();

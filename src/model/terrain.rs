@@ -1,8 +1,7 @@
 //! Existing ground.
 
 use crate::kernel::frame::Frame;
-use crate::kernel::plan_box::PlanBox;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// A triangulated ground surface, single-valued in z (2.5D), triangles counter-clockwise seen from above.
 ///
@@ -24,9 +23,11 @@ impl Terrain {
         self.triangles[t].map(|v| self.vertices[v as usize])
     }
 
-    /// Plan box of all vertices in the local frame.
-    pub fn plan_box(&self) -> PlanBox {
-        PlanBox::of(self.vertices.iter().map(|v| v.truncate()))
+    /// Plan box of all vertices in the local frame, lower left and upper right; both infinite the wrong way round if there are
+    /// none.
+    pub fn plan_box(&self) -> (DVec2, DVec2) {
+        let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        self.vertices.iter().fold(empty, |(lo, hi), v| (lo.min(v.truncate()), hi.max(v.truncate())))
     }
 
     /// The same ground in another frame.

@@ -34,7 +34,7 @@ pub enum Held {
         vertices: usize,
         /// Its faces.
         faces: usize,
-        /// Its groups or parts, each with the number of its faces; none if it has no groups.
+        /// Its groups, parts or layers, each with the number of its faces; none if it has no groups.
         parts: Vec<(String, usize)>,
     },
     /// Points without faces.
@@ -110,7 +110,8 @@ pub fn inventory(path: &Path, options: &ReadOptions) -> Result<Inventory, ReadEr
         InputFormat::LandXml => held.extend(landxml::surfaces(&path.display().to_string(), &std::fs::read(path).map_err(open)?)?),
         _ => held.extend(raw_ground.map(|ground| held_ground(&ground.ground))),
     }
-    if let (InputFormat::Obj | InputFormat::Ply, Some(Held::Surface { parts, .. })) = (format, held.last_mut()) {
+    if let (InputFormat::Obj | InputFormat::Ply | InputFormat::Dxf, Some(Held::Surface { parts, .. })) = (format, held.last_mut())
+    {
         *parts = groups(path, format)?;
     }
     let mut bounds = None;

@@ -110,7 +110,7 @@ pub struct SurfaceRow {
     /// Faces as given, of a mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub faces: Option<usize>,
-    /// Groups or parts of a mesh, each with the number of its faces.
+    /// Groups, parts or layers of a mesh, each with the number of its faces.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<PartRow>,
     /// Nodes from west to east, of a grid.
@@ -133,7 +133,7 @@ pub struct SurfaceRow {
     pub surface_area: Option<f64>,
 }
 
-/// A group or part of a mesh.
+/// A group, part or layer of a mesh.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct PartRow {
     /// Its name.

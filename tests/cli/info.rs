@@ -49,6 +49,22 @@ fn a_mesh() {
     assert!(text.done().contains("\nAs ground: nothing against it\n"), "{}", text.stdout);
 }
 
+/// Of a drawing with faces on several layers each is told, those that are off aside.
+#[test]
+fn layers_of_a_drawing() {
+    let face = |layer: &str, x: u32| {
+        let corners = [(0, 0), (1, 0), (1, 1), (1, 1)].iter().zip(0..);
+        let corners = corners.map(|((u, v), i)| format!("1{i}\n{}\n2{i}\n{v}\n3{i}\n5\n", x + u)).collect::<String>();
+        format!("0\n3DFACE\n8\n{layer}\n{corners}")
+    };
+    let layers = "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n0\nLAYER\n2\nOFF\n62\n-7\n70\n0\n0\nENDTAB\n0\nENDSEC\n";
+    let faces = [face("NORTH", 0), face("SOUTH", 1), face("NORTH", 2), face("OFF", 3)].concat();
+    let site = Site::with("g.dxf", &format!("{layers}0\nSECTION\n2\nENTITIES\n{faces}0\nENDSEC\n0\nEOF\n"));
+    let report = info(&site, "g.dxf");
+    let parts = serde_json::json!([{"name": "NORTH", "faces": 2}, {"name": "SOUTH", "faces": 1}]);
+    assert_eq!((&report["surfaces"][0]["faces"], &report["surfaces"][0]["parts"]), (&3.into(), &parts));
+}
+
 #[test]
 fn lines() {
     let site = Site::new();

@@ -62,8 +62,8 @@ fn changed(mesh: &Terrain, change: impl Fn(DVec3) -> DVec3) -> Terrain {
 /// Moved to [`UTM`], in a frame of its own.
 fn far(mesh: &Terrain) -> Terrain {
     let moved = changed(mesh, |p| p + UTM.extend(0.0));
-    let plan = moved.plan_box();
-    moved.in_frame(Frame::around(plan.lo, plan.hi))
+    let (lo, hi) = moved.plan_box();
+    moved.in_frame(Frame::around(lo, hi))
 }
 
 fn volume(design: &Terrain, existing: &Terrain) -> Between {
