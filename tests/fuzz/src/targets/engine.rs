@@ -20,11 +20,15 @@ pub(crate) fn run(bytes: &[u8]) {
     let sheet = if choices.below(2) == 0 { Sheet::Falling } else { Sheet::Rising };
     let side =
         [None, Some(Side::Both), Some(Side::Left), Some(Side::Right), Some(Side::Inside), Some(Side::Outside)][choices.below(6)];
-    let tolerance = [0.01, 0.001, 0.1][choices.below(3)];
+    let fine = [0.01, 0.003, 0.03][choices.below(3)];
     let deep = [1.0, 2.0, 4.0, 10.0, 0.5, choices.between(0.1, 12.0)][choices.below(6)];
     let reached = choices.below(3);
-    let interval = [None, Some(1.0), Some(0.5)][choices.below(3)];
+    // Coarse, so that meshes are small.
+    let tolerance = fine * k.max(1.0) * deep.max(1.0);
+    let interval = [None, Some(deep * k / 2.0), Some(deep * k / 5.0)][choices.below(3)];
     let width = [None, None, None, Some(1.0), Some(3.0), Some(8.0)][choices.below(6)];
+    // A road has its slopes outside.
+    let side = if width.is_some() { None } else { side };
     let line = match drawn::line(&mut choices, k, width) {
         Ok(line) => line,
         Err(message) => return telling(&message),
@@ -46,6 +50,7 @@ pub(crate) fn run(bytes: &[u8]) {
         Err(error) => return telling(&error.to_string()),
     };
     let shown = || format!("{}\n{wishes:?}\n", drawn::geojson(&line));
+    limits::show(&shown);
     match surface::build(&line, &design, None, &()) {
         Ok(surface) => Look { line: &line, design: &design, surface: &surface }.all(),
         Err(error @ (SurfaceError::Unclosed { .. } | SurfaceError::Unsound { .. } | SurfaceError::Flat { .. })) => {

@@ -71,6 +71,11 @@ fn height(triangle: Triangle, p: &Point) -> i128 {
     a[2] * area * p.w + (u[2] * v[1] - u[1] * v[2]) * dx + (u[0] * v[2] - u[2] * v[0]) * dy
 }
 
+/// Twice the area of a triangle times all three `w`.
+fn cross([a, b, c]: [Point; 3]) -> i128 {
+    a.x * (b.y * c.w - c.y * b.w) - a.y * (b.x * c.w - c.x * b.w) + a.w * (b.x * c.y - c.x * b.y)
+}
+
 /// Height of one point and the differences to the two others, each rounded once.
 struct Corner {
     h: f64,
@@ -80,6 +85,10 @@ struct Corner {
 impl Sums {
     /// Adds a cell; `h` times `w` and `unit` is the height of design over existing.
     fn cell(&mut self, polygon: &[Point], h: &[i128], unit: i128) {
+        // Those that only touch have no depth.
+        if !(2..polygon.len()).any(|i| cross([0, i - 1, i].map(|i| polygon[i])) > 0) {
+            return;
+        }
         let value = |i: usize| h[i] as f64 / (polygon[i].w * unit) as f64;
         for i in 0..polygon.len() {
             self.deepest_fill = self.deepest_fill.max(value(i));
@@ -88,7 +97,7 @@ impl Sums {
         for i in 2..polygon.len() {
             let t = [0, i - 1, i];
             let [a, b, c] = t.map(|i| polygon[i]);
-            let cross = a.x * (b.y * c.w - c.y * b.w) - a.y * (b.x * c.w - c.x * b.w) + a.w * (b.x * c.y - c.x * b.y);
+            let cross = cross([a, b, c]);
             assert!(cross >= 0, "a cell is convex");
             let area = cross as f64 / (a.w * b.w * c.w) as f64 / 2.0;
             self.common += area;

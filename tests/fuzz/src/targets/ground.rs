@@ -25,6 +25,8 @@ pub(crate) fn run(bytes: &[u8]) {
     let width = [None, None, None, Some(1.0), Some(3.0), Some(8.0)][choices.below(6)];
     let direction = choices.below(4);
     let side = [None, None, None, Some(Side::Both), Some(Side::Left), Some(Side::Outside), Some(Side::Inside)][choices.below(7)];
+    // A road has its slopes outside.
+    let side = if width.is_some() { None } else { side };
     let tolerance = [0.01, 0.001, 0.1][choices.below(3)];
     let options = Options {
         allow_open: choices.below(2) == 0,
@@ -68,6 +70,7 @@ pub(crate) fn run(bytes: &[u8]) {
     let shown = || {
         format!("{}{}{k} {cut} {side:?} {width:?} {direction} {tolerance} {options:?}\n", drawn::geojson(&line), obj(&terrain))
     };
+    limits::show(&shown);
     match site.build(&designs, &options, &()) {
         Ok(built) => Look { line: &line, designs: &designs, terrain: &terrain, built: &built }.all(),
         Err(error) => match limit(&error) {

@@ -18,3 +18,10 @@ pub(crate) fn note(kind: &str, bytes: &[u8], case: &str) {
     fs::write(&name, bytes).expect("the folder can be written to");
     fs::write(name.with_extension("txt"), case).expect("the folder can be written to");
 }
+
+/// Shows a case before it is run, where the environment asks for it.
+pub(crate) fn show(case: &dyn Fn() -> String) {
+    if std::env::var_os("SLOPEGEN_FUZZ_SHOW").is_some() {
+        eprintln!("{}", case());
+    }
+}

@@ -64,6 +64,21 @@ impl Whole {
         other
     }
 
+    /// The triangles whose boxes meet the box of another.
+    pub(crate) fn near(&self, other: &Self) -> Self {
+        let bound = |corners: &mut dyn Iterator<Item = [i64; 3]>| {
+            corners.fold([i64::MAX, i64::MAX, i64::MIN, i64::MIN], |b, v| {
+                [b[0].min(v[0]), b[1].min(v[1]), b[2].max(v[0]), b[3].max(v[1])]
+            })
+        };
+        let all = bound(&mut (0..other.triangles.len()).flat_map(|t| other.corners(t)));
+        let meets = |t: &[usize; 3]| {
+            let own = bound(&mut t.iter().map(|&v| self.vertices[v]));
+            own[0] <= all[2] && own[1] <= all[3] && own[2] >= all[0] && own[3] >= all[1]
+        };
+        Self { vertices: self.vertices.clone(), triangles: self.triangles.iter().copied().filter(meets).collect() }
+    }
+
     /// In coordinates of the program; `far` from zero.
     pub(crate) fn terrain(&self, far: bool) -> Terrain {
         let (dx, dy) = if far { (500_000.0, 5_400_000.0) } else { (0.0, 0.0) };
