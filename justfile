@@ -21,6 +21,11 @@ lint:
 test:
     cargo test
 
+# Fuzz a target until it finds something, or as long as `-max_total_time=60` says; see docs/testing.md
+fuzz target *options:
+    mkdir -p tests/fuzz/corpus/{{target}}
+    cd tests/fuzz && cargo run --release --bin {{target}} -- corpus/{{target}} ../../fixtures/fuzz/{{target}} {{options}}
+
 # The documentation of the library, as a browser shows it
 doc:
     RUSTDOCFLAGS="-D warnings" cargo doc --no-deps

@@ -54,6 +54,31 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
+/// Reads arguments as [`run`] does, with the job file they may name, and carries nothing out.
+///
+/// # Errors
+/// What [`run`] would say before it looks at any other file; also the text of help and version.
+pub fn understand(arguments: impl IntoIterator<Item = OsString>) -> Result<(), String> {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let (arguments, file) = match job_file::parse(&arguments) {
+        Ok(parsed) => parsed,
+        Err(Stop::File(error)) => return Err(format!("{error:#}")),
+        Err(Stop::Parser(error)) => return Err(error.to_string()),
+    };
+    let understood = match &arguments.command {
+        Command::Build(wanted) => job::build_job(wanted).map(drop),
+        Command::Check(wanted) => check::check_job(wanted).map(drop),
+        Command::Volume(wanted) => job::volume_job(wanted).map(drop),
+        Command::Sample(wanted) => job::sample_job(wanted).map(drop),
+        // These look at files at once, or have nothing to look at.
+        Command::Batch(_) | Command::Diff(_) | Command::Info(_) | Command::Completions(_) | Command::Man(_) => Ok(()),
+    };
+    understood.map_err(|error| match file {
+        Some(file) => file.located(&error.into()),
+        None => error.to_string(),
+    })
+}
+
 fn dispatch(command: Command) -> anyhow::Result<Code> {
     match command {
         Command::Build(wanted) => build(&wanted),

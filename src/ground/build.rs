@@ -160,11 +160,15 @@ impl<'a> Site<'a> {
         let mut feeder = Feeder::new(&shape, &stations, options.keep);
         let mut works = Flood::run(&shape, &patch, whole, &mut feeder);
         let fed = feeder.finish();
-        self.check_covered(&shape, &fed, options)?;
+        let uncovered = Uncovered::find(&shape, &fed);
+        if let Some(uncovered) = uncovered.as_ref().filter(|_| !options.allow_open) {
+            return Err(uncovered.error());
+        }
         check_open(&shape, &works, designs, options)?;
         go_on("daylight")?;
         let mut nodes = Nodes::new(&shape, &patch, &works);
         notes.extend(standing(&shape, &works, designs));
+        notes.extend(uncovered.as_ref().map(Uncovered::note));
         let assemble = |works: &Works, nodes: &Nodes| {
             let cut = |what| move |cause| GroundError::Cut { what, cause };
             let trimmed = Trimmed::new(&shape, &patch, works, nodes, whole).map_err(cut("the design"))?;
@@ -187,6 +191,7 @@ impl<'a> Site<'a> {
                 trimmed: &trimmed,
                 left: left.as_ref(),
                 fed: &fed,
+                covered: uncovered.is_none(),
                 stations: &stations,
                 notes: &notes,
             })
@@ -309,29 +314,44 @@ impl<'a> Site<'a> {
         }
         Ok(surfaces)
     }
+}
 
-    fn check_covered(&self, shape: &Shape, fed: &Fed, options: &Options) -> Result<(), GroundError> {
-        if options.allow_open {
-            return Ok(());
-        }
-        let missing = |a: u32| {
-            let t = shape.triangles[a as usize].map(|v| shape.vertices[v as usize]);
-            volume::plan_area(t) - fed.covered[a as usize]
-        };
+/// Platform that has no ground below it.
+struct Uncovered {
+    /// Its plan area.
+    area: f64,
+    /// Plan area of all platforms.
+    all: f64,
+    /// A place of it in the world.
+    at: DVec2,
+}
+
+impl Uncovered {
+    fn find(shape: &Shape, fed: &Fed) -> Option<Self> {
+        let corners = |a: u32| shape.triangles[a as usize].map(|v| shape.vertices[v as usize]);
+        let missing = |a: u32| volume::plan_area(corners(a)) - fed.covered[a as usize];
         let flats: Vec<u32> = (0..shape.triangles.len() as u32).filter(|&a| shape.parts[a as usize] == Part::Platform).collect();
         let area = flats.iter().map(|&a| missing(a)).collect::<Sum>().value();
-        let all = flats
-            .iter()
-            .map(|&a| volume::plan_area(shape.triangles[a as usize].map(|v| shape.vertices[v as usize])))
-            .collect::<Sum>()
-            .value();
+        let all = flats.iter().map(|&a| volume::plan_area(corners(a))).collect::<Sum>().value();
         if area <= AREA_ROUNDING * all {
-            return Ok(());
+            return None;
         }
-        let worst = flats.into_iter().max_by(|&a, &b| missing(a).total_cmp(&missing(b))).unwrap_or(0);
-        let [p, q, r] = shape.triangles[worst as usize].map(|v| shape.vertices[v as usize]);
-        let at = shape.frame.to_world((p + q + r) / 3.0);
-        Err(GroundError::Uncovered { area, all, x: at.x, y: at.y })
+        let worst = flats.into_iter().max_by(|&a, &b| missing(a).total_cmp(&missing(b)))?;
+        let [p, q, r] = corners(worst);
+        Some(Self { area, all, at: shape.frame.to_world((p + q + r) / 3.0).truncate() })
+    }
+
+    fn error(&self) -> GroundError {
+        GroundError::Uncovered { area: self.area, all: self.all, x: self.at.x, y: self.at.y }
+    }
+
+    fn note(&self) -> Note {
+        let Self { area, all, at } = self;
+        let message = format!(
+            "there is no ground under {area:.3} of {all:.3} square units of the platform, first near ({:.3}, {:.3})",
+            at.x, at.y
+        );
+        Note::new("platform-uncovered", message)
     }
 }
 

@@ -90,6 +90,8 @@ pub(crate) struct Found<'a> {
     pub(crate) trimmed: &'a Trimmed,
     pub(crate) left: Option<&'a Left>,
     pub(crate) fed: &'a Fed,
+    /// Whether there is ground below all of the platform.
+    pub(crate) covered: bool,
     pub(crate) stations: &'a Stations,
     pub(crate) notes: &'a [Note],
 }
@@ -116,7 +118,7 @@ pub(crate) fn ground(found: &Found) -> Result<Ground, GroundError> {
         levels: levels(found, &lines),
         lines,
         daylight: daylight(found),
-        complete: meets_ground(found.works, found.designs),
+        complete: found.covered && meets_ground(found.works, found.designs),
         tallied: found.fed.tallied.clone(),
         sections: found.fed.sections.clone(),
         stations: found.stations.clone(),

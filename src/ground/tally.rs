@@ -204,7 +204,8 @@ impl Sums {
     }
 
     fn value(&self) -> Amounts {
-        let [cut, fill, cut_area, fill_area, level_area] = self.0.map(|sum| sum.value());
+        // Rounding can leave a hair less than nothing.
+        let [cut, fill, cut_area, fill_area, level_area] = self.0.map(|sum| sum.value().max(0.0));
         Amounts { cut, fill, cut_area, fill_area, level_area }
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// Notes on the result itself rather than on how the input was read.
-const WARNINGS: [&str; 12] = [
+const WARNINGS: [&str; 13] = [
     "buried",
     "line-beyond-end",
     "ground-single-precision",
@@ -12,6 +12,7 @@ const WARNINGS: [&str; 12] = [
     "ground-pieces",
     "ground-spikes",
     "design-uncovered",
+    "platform-uncovered",
     "meshes-swapped",
     "lies-double",
     "single-precision",

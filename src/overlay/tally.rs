@@ -15,6 +15,9 @@ use std::sync::{Mutex, PoisonError};
 /// Triangles of a piece of work. Fixed, so that sums are taken in the same order on any number of threads.
 const CHUNK: usize = 4096;
 
+/// Share of its triangle up to which a cell may be nothing but rounding, where triangles only touch.
+pub(super) const SLIVER: f64 = 1e-12;
+
 /// Figures of a piece of the work. Heights are those of the mesh laid over, above the other one.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Tally {
@@ -202,13 +205,15 @@ impl Cells {
             low = low.min(c[HEIGHT]);
             high = high.max(c[HEIGHT]);
         }
-        if high > tally.above.deepest * scale {
+        let (area, volume) = ring.measure();
+        // Where triangles only touch, rounding may leave a sliver, which is no place of the common area.
+        let counts = area > SLIVER * scale * scale;
+        if counts && high > tally.above.deepest * scale {
             note_deepest(&mut tally.above, patch, ring, high, 1.0);
         }
-        if -low > tally.below.deepest * scale {
+        if counts && -low > tally.below.deepest * scale {
             note_deepest(&mut tally.below, patch, ring, low, -1.0);
         }
-        let (area, volume) = ring.measure();
         let parts = if low == 0.0 {
             [[area, volume], [0.0; 2]]
         } else if high == 0.0 {

@@ -176,7 +176,9 @@ pub fn between(design: &Terrain, existing: &Terrain, within: Option<&Terrain>) -
     } else {
         (tally::sweep(&e, &linked_design).mirrored(), d.area, e.area)
     };
-    if tally.cells == 0 {
+    // Where meshes only touch, rounding may leave slivers.
+    let smaller = design_area.min(existing_area);
+    if tally.cells == 0 || tally.common() <= AREA_ROUNDING * smaller {
         let world = |b: &Box2| [b.lo, b.hi].map(|p| frame.to_world(p.extend(0.0)).truncate());
         return Err(match area {
             Some(area) if design_area == 0.0 || existing_area == 0.0 => {

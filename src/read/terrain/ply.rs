@@ -125,6 +125,7 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn wrong(&self, index: u64, miss: Miss) -> ReadError {
         let Element { name, count, .. } = self.element;
+        let name = clip(name.as_bytes());
         let at = format!("{}, {name} {}", self.label, index + 1);
         match miss {
             Miss::End => {
