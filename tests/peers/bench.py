@@ -1,0 +1,198 @@
+"""Runs every case, slopegen and peer in turn, and prints the table. Imports nothing large: the peak of memory of a child begins
+with that of its parent."""
+
+import argparse
+import importlib.metadata
+import json
+import os
+import statistics
+import subprocess
+import sys
+import time
+
+import cases
+import paths
+import table
+
+REPEATS = 5
+# Processor seconds beyond which a peer runs three times, or once.
+SLOW, VERY_SLOW = 2.0, 8.0
+PATIENCE = 300  # wall seconds for one answer of a peer
+SLOPEGEN = os.path.join(os.environ.get("CARGO_TARGET_DIR", os.path.join(paths.ROOT, "target")), "release", "slopegen")
+
+
+class Skipped(Exception):
+    """Why a row has no figures."""
+
+
+class Worker:
+    """One job of one peer in a process of its own, see worker.py."""
+
+    def __init__(self, job, parameters):
+        module, function = job.split(":")
+        self.errors = open(os.path.join(paths.CACHE, "worker.log"), "w+")
+        command = [sys.executable, os.path.join(paths.HERE, "worker.py"), module, function, json.dumps(parameters)]
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.errors, text=True)
+        self.answer()
+
+    def answer(self):
+        import select
+
+        if not select.select([self.process.stdout], [], [], PATIENCE)[0]:
+            raise Skipped(f"no answer within {PATIENCE} s")
+        line = self.process.stdout.readline()
+        if not line:
+            self.errors.seek(0)
+            said = [line for line in self.errors.read().splitlines() if line.strip()]
+            raise Skipped(said[-1][:120] if said else f"ended with {self.process.wait()}")
+        return json.loads(line)
+
+    def ask(self, what):
+        self.process.stdin.write(what + "\n")
+        self.process.stdin.flush()
+        return self.answer()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+        self.errors.close()
+
+
+def run_program(command):
+    """A whole process: processor time, wall time, peak memory."""
+    with open(os.path.join(paths.CACHE, "program.log"), "w+") as log:
+        start = time.perf_counter()
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=log)
+        _, status, used = os.wait4(process.pid, 0)
+        wall = time.perf_counter() - start
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode != 0:
+            log.seek(0)
+            raise Skipped(f"exit code {process.returncode}: " + " ".join(log.read().split())[:200])
+    return {"cpu": used.ru_utime + used.ru_stime, "wall": wall, "mb": used.ru_maxrss / 1024}
+
+
+def middle(runs):
+    return {key: statistics.median(run[key] for run in runs) for key in ("cpu", "wall")} | {
+        "mb": max(run["mb"] for run in runs),
+        "runs": len(runs),
+    }
+
+
+def prepare(case):
+    """Writes the inputs that are not there yet."""
+    os.makedirs(paths.inputs(""), exist_ok=True)
+    for name, (kind, parameters) in case.inputs.items():
+        path = paths.inputs(name)
+        if not os.path.exists(path):
+            code = "import json, sys, shapes; shapes.write(sys.argv[1], sys.argv[2], **json.loads(sys.argv[3]))"
+            command = [sys.executable, "-c", code, path + ".part." + path.split(".")[-1], kind, json.dumps(parameters)]
+            subprocess.run(command, cwd=paths.HERE, check=True)
+            os.rename(command[3], path)
+
+
+def row_of(case, label, said, version="", readme=False):
+    row = {"case": case.name, "title": case.title, "tool": label, "version": version, "said": said}
+    return row | {"readme": case.readme and readme}
+
+
+def measure_peer(case, peer, command, ours):
+    row = row_of(case, peer.label, peer.said, readme=peer.readme)
+    try:
+        if peer.package:
+            try:
+                row["version"] = importlib.metadata.version(peer.package)
+            except importlib.metadata.PackageNotFoundError:
+                raise Skipped(f"{peer.package} could not be installed") from None
+        if isinstance(peer.program, str):
+            raise Skipped(peer.program)
+        worker = None if peer.program else Worker(peer.job, peer.parameters)
+        try:
+            once = (lambda: worker.ask("go")) if worker else (lambda: run_program([*peer.program, peer.parameters["path"]]))
+            beside, runs = [], []
+            repeats = REPEATS
+            while len(runs) < repeats:
+                beside.append(run_program(command))
+                runs.append(once())
+                if len(runs) == 1:
+                    repeats = 1 if runs[0]["cpu"] > VERY_SLOW else 3 if runs[0]["cpu"] > SLOW else REPEATS
+            ours.extend(beside)
+            row |= middle(runs) | {"ratio": middle(runs)["cpu"] / middle(beside)["cpu"]}
+            if worker:
+                found = worker.ask("check")
+                row["said"] = "; ".join(filter(None, [row["said"], found.pop("said", "")]))
+                row |= found
+        finally:
+            if worker:
+                worker.__exit__()
+    except (Skipped, BrokenPipeError) as why:
+        row["skipped"] = str(why)
+        print(f"   SKIPPED {peer.label}: {why}", file=sys.stderr)
+    return row
+
+
+def measure(case):
+    print(f"== {case.name}", file=sys.stderr)
+    prepare(case)
+    out = os.path.join(paths.CACHE, "out" + case.suffix)
+    places = {f"{{{name}}}": paths.inputs(name) for name in case.inputs}
+    command = [SLOPEGEN, *(places.get(word, word.replace("{out}", out)) for word in case.command)]
+    ours = row_of(case, "slopegen", case.said, readme=True)
+    ours["command"] = " ".join(["slopegen", *(word.strip("{}") if word in places else word.replace("{out}", "out" + case.suffix) for word in case.command)])
+    runs, rows = [], []
+    for peer in case.peers:
+        print(f"   {peer.label}", file=sys.stderr)
+        try:
+            rows.append(measure_peer(case, peer, command, runs))
+        except Skipped as why:
+            ours["skipped"] = str(why)
+            print(f"   SLOPEGEN FAILED: {why}", file=sys.stderr)
+            break
+    while len(runs) < 3 and "skipped" not in ours:
+        try:
+            runs.append(run_program(command))
+        except Skipped as why:
+            ours["skipped"] = str(why)
+    if runs:
+        ours |= middle(runs) | {"ratio": 1.0}
+        if case.check:
+            job, key, parameters = case.check
+            with Worker(job, {key: out} | parameters) as worker:
+                worker.ask("go")
+                ours |= worker.ask("check")
+    return [ours, *rows]
+
+
+def main():
+    options = argparse.ArgumentParser(prog="tests/peers/run", description="slopegen beside other tools: accuracy and time.")
+    options.add_argument("--quick", action="store_true", help="small sizes only, less than two minutes")
+    options.add_argument("--only", metavar="NAME", action="append", help="cases whose name has NAME in it; can be repeated")
+    options.add_argument("--list", action="store_true", help="the names of the cases")
+    options.add_argument("--docs", action="store_true", help="write the tables of README.md and docs/peers.md from the last full run")
+    chosen = options.parse_args()
+    if chosen.docs:
+        return table.write_docs()
+    tobj = os.path.join(paths.CACHE, "tobj", "release", "read_with_tobj")
+    listed = cases.CASES + cases.io_cases([tobj] if os.path.exists(tobj) else "the program could not be built")
+    listed = [c for c in listed if (c.quick or not chosen.quick) and (not chosen.only or any(n in c.name for n in chosen.only))]
+    if chosen.list:
+        return print("\n".join(case.name for case in listed))
+    begun, load = time.time(), os.getloadavg()[0]
+    rows = [row for case in listed for row in measure(case)]
+    result = {"machine": table.machine(), "load": [load, os.getloadavg()[0]], "seconds": time.time() - begun, "rows": rows}
+    full = not (chosen.quick or chosen.only)
+    path = os.path.join(paths.CACHE, "peers.json" if full else "part.json")
+    with open(path, "w") as file:
+        json.dump(result, file, indent=1)
+    print(table.whole(result))
+    with open(path.replace(".json", ".md"), "w") as file:
+        file.write(table.whole(result))
+    print(f"\nwritten to {os.path.relpath(path)}", file=sys.stderr)
+    return 1 if any("skipped" in row for row in rows if row["tool"] == "slopegen") else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
