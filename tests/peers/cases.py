@@ -48,14 +48,14 @@ def heights(n, cells, sloping, peers, **more):
     ]
     title = f"heights, {kind} ring of {n:,} vertices, {cells + 1:,}² nodes"
     inputs = {line: ("outline", {"n": n, "sloping": sloping})}
-    return Case(f"heights-{kind}-{n}-{cells}", title, inputs, command, ".tif", ("heights:slopegen", "path", parameters), listed, **more)
+    return Case(f"heights-{kind}-{n}-{cells}", title, inputs, command, ".asc", ("heights:slopegen", "path", parameters), listed, **more)
 
 
 def offsets(n, inside, peers, more_tolerance=None, **more):
     side = "inside" if inside else "outside"
     line = f"level_{n}.csv"
     levels = ",".join(str(200 - d) for d in range(10, 101, 10))
-    command = ["build", f"{{{line}}}", "--closed", "--side", side, "--slope", "1:1", "--direction", "down", "--distance", "100"]
+    command = ["build", f"{{{line}}}", "--closed", "--side", side, "--slope", "1:1", "--direction", "down", "--distance", "101"]
     command += ["--level", levels, "-o", "{out}.ply", "--lines", "{out}", "--quiet"]
     if more_tolerance:
         command += ["--tolerance", more_tolerance]
@@ -136,7 +136,7 @@ MESHLIB = ("MeshLib, distance map", "meshlib", "meshlib", f"level lines only; {S
 SCIPY = ("scipy, distance transform", "scipy", "scipy_edt", f"level lines only; {EDT}", False)
 SKFMM = ("scikit-fmm, fast marching of order 2", "scikit-fmm", "scikit_fmm", FMM, False)
 PYKONAL = ("pykonal, fast marching", "pykonal", "pykonal", KONAL, False)
-BRUTE = ("numba, closed form of all segments", "numba", "numba_brute", "", True)
+BRUTE = ("numba, closed form of all segments", "numba", "numba_brute", "what the others are compared with", True)
 GEOS = ("GEOS (shapely), 64 segments to a quarter", "shapely", "geos", "level lines only; simplifies its input", True)
 CLIPPER = ("Clipper2 (pyclipr), arcs within 1 mm", "pyclipr", "clipper2", "level lines only", True)
 MANIFOLD = ("manifold3d, two booleans", "manifold3d", "manifold", {}, "", True)

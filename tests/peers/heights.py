@@ -1,8 +1,5 @@
 """Heights of a slope of 1:2 on the nodes of a grid."""
 
-import struct
-import zlib
-
 import exact
 import numpy as np
 import shapes
@@ -71,7 +68,7 @@ def libigl(**parameters):
 
 
 def meshlib(**parameters):
-    from meshlib import mrmeshnumpy, mrmeshpy
+    from meshlib import mrmeshpy
 
     job = Job(**parameters)
     contour = mrmeshpy.std_vector_Vector2_float()
@@ -85,10 +82,13 @@ def meshlib(**parameters):
     place = mrmeshpy.ContourToDistanceMapParams(size, mrmeshpy.Vector2f(corner, corner), mrmeshpy.Vector2f(side, side), False)
 
     def work():
-        distances = mrmeshpy.distanceMapFromContours(mrmeshpy.Polyline2(contours), place)
-        return shapes.Z - K * np.asarray(mrmeshnumpy.toNumpyArray(distances), dtype=float)
+        return mrmeshpy.distanceMapFromContours(mrmeshpy.Polyline2(contours), place)
 
-    return work, job.check
+    def check(distances):
+        pixels = [distances.getValue(i) for i in range(distances.numPoints())]
+        return job.check(shapes.Z - K * np.array(pixels))
+
+    return work, check
 
 
 def scipy_edt(**parameters):
@@ -112,7 +112,7 @@ def scikit_fmm(**parameters):
     near, heights = job.band(4)
     phi = np.where(mask, 10 * job.cell, -10 * job.cell)
     phi.ravel()[near] = np.where(mask.ravel()[near], 1, -1) * (shapes.Z - heights) / K
-    return lambda: shapes.Z - K * np.abs(skfmm.distance(phi, dx=job.cell, order=2)), job.check
+    return lambda: shapes.Z - K * np.abs(skfmm.distance(phi, dx=float(job.cell), order=2)), job.check
 
 
 def pykonal(**parameters):
@@ -146,24 +146,12 @@ def pykonal(**parameters):
     return work, check
 
 
-def _geotiff(path):
-    """Values of a GeoTIFF as slopegen writes them (doubles, strips, deflate), from the south."""
-    with open(path, "rb") as file:
-        data = file.read()
-    (start,) = struct.unpack_from("<I", data, 4)
-    (count,) = struct.unpack_from("<H", data, start)
-    tags = {}
-    for i in range(count):
-        tag, kind, number, value = struct.unpack_from("<HHII", data, start + 2 + 12 * i)
-        size = {3: "H", 4: "I"}.get(kind)
-        if size:
-            at = start + 10 + 12 * i if number * struct.calcsize(size) <= 4 else value
-            tags[tag] = struct.unpack_from(f"<{number}{size}", data, at)
-    (columns,), (rows,) = tags[256], tags[257]
-    strips = b"".join(zlib.decompress(data[at : at + size]) for at, size in zip(tags[273], tags[279]))
-    return np.frombuffer(strips, "<f8").reshape(rows, columns)[::-1]
-
-
 def slopegen(path, **parameters):
     job = Job(**parameters)
-    return (lambda: _geotiff(path)), job.check
+
+    def work():
+        with open(path) as file:
+            values = file.read().split("\n", 6)[-1]
+        return np.fromstring(values, sep=" ").reshape(job.shape)[::-1]
+
+    return work, job.check

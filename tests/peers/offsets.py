@@ -7,6 +7,7 @@ import numpy as np
 import shapes
 
 DISTANCES = np.arange(10.0, 101.0, 10.0)
+SCALE = 1_000_000  # whole numbers of Clipper2 to a metre
 CHECKED = 2_000  # places of each curve, half of them vertices, half of them in the middle of edges
 
 
@@ -54,8 +55,8 @@ def clipper2(n, inside):
         curves = []
         for d in DISTANCES:
             offset = pyclipr.ClipperOffset()
-            offset.scaleFactor = 1_000_000
-            offset.arcTolerance = 0.001
+            offset.scaleFactor = SCALE
+            offset.arcTolerance = 0.001 * SCALE
             offset.addPath(job.line[:, :2], pyclipr.JoinType.Round, pyclipr.EndType.Polygon)
             curves.append(offset.execute(job.sign * d))
         return curves
@@ -98,7 +99,9 @@ def slopegen(path, n, inside):
         curves = [f["geometry"]["coordinates"] for f in features if f["properties"]["kind"] == "level_curve"]
         found = [[] for _ in DISTANCES]
         for curve in map(np.asarray, curves):
-            found[round((shapes.Z - curve[0, 2]) / 10) - 1].append(curve[:-1, :2])
+            distance = round((shapes.Z - curve[0, 2]) / 10) * 10
+            if distance in DISTANCES:
+                found[distance // 10 - 1].append(curve[:-1, :2])
         return found
 
     return work, job.check
