@@ -14,10 +14,9 @@ import cases
 import paths
 import table
 
-REPEATS = 5
 # Processor seconds beyond which a peer runs three times, or once.
 SLOW, VERY_SLOW = 2.0, 8.0
-PATIENCE = 300  # wall seconds for one answer of a peer
+PATIENCE = 600  # wall seconds for one answer of a peer
 SLOPEGEN = os.environ.get("SLOPEGEN_DEV") or os.path.join(os.environ.get("CARGO_TARGET_DIR", os.path.join(paths.ROOT, "target")), "release", "slopegen")
 
 
@@ -87,7 +86,7 @@ def prepare(case):
     os.makedirs(paths.inputs(""), exist_ok=True)
     for name, (kind, parameters) in case.inputs.items():
         path = paths.inputs(name)
-        if not os.path.exists(path):
+        if not paths.fresh(path):
             code = "import json, sys, shapes; shapes.write(sys.argv[1], sys.argv[2], **json.loads(sys.argv[3]))"
             command = [sys.executable, "-c", code, path + ".part." + path.split(".")[-1], kind, json.dumps(parameters)]
             subprocess.run(command, cwd=paths.HERE, check=True)
@@ -99,7 +98,7 @@ def row_of(case, label, said, version="", readme=False):
     return row | {"readme": case.readme and readme}
 
 
-def measure_peer(case, peer, command, ours):
+def measure_peer(case, peer, command, ours, most):
     row = row_of(case, peer.label, peer.said, readme=peer.readme)
     try:
         if peer.package:
@@ -113,12 +112,12 @@ def measure_peer(case, peer, command, ours):
         try:
             once = (lambda: worker.ask("go")) if worker else (lambda: run_program([*peer.program, peer.parameters["path"]]))
             beside, runs = [], []
-            repeats = REPEATS
+            repeats = most
             while len(runs) < repeats:
                 beside.append(run_program(command))
                 runs.append(once())
                 if len(runs) == 1:
-                    repeats = 1 if runs[0]["cpu"] > VERY_SLOW else 3 if runs[0]["cpu"] > SLOW else REPEATS
+                    repeats = min(most, 1 if runs[0]["cpu"] > VERY_SLOW else 3 if runs[0]["cpu"] > SLOW else most)
             ours.extend(beside)
             row |= middle(runs) | {"ratio": middle(runs)["cpu"] / middle(beside)["cpu"]}
             if worker:
@@ -134,7 +133,7 @@ def measure_peer(case, peer, command, ours):
     return row
 
 
-def measure(case):
+def measure(case, repeats):
     print(f"== {case.name}", file=sys.stderr)
     prepare(case)
     out = os.path.join(paths.CACHE, "out" + case.suffix)
@@ -146,12 +145,12 @@ def measure(case):
     for peer in case.peers:
         print(f"   {peer.label}", file=sys.stderr)
         try:
-            rows.append(measure_peer(case, peer, command, runs))
+            rows.append(measure_peer(case, peer, command, runs, repeats))
         except Skipped as why:
             ours["skipped"] = str(why)
             print(f"   SLOPEGEN FAILED: {why}", file=sys.stderr)
             break
-    while len(runs) < 3 and "skipped" not in ours:
+    while len(runs) < min(3, repeats) and "skipped" not in ours:
         try:
             runs.append(run_program(command))
         except Skipped as why:
@@ -174,6 +173,7 @@ def main():
     options = argparse.ArgumentParser(prog="tests/peers/run", description="slopegen beside other tools: accuracy and time.")
     options.add_argument("--quick", action="store_true", help="small sizes only, less than two minutes")
     options.add_argument("--only", metavar="NAME", action="append", help="cases whose name has NAME in it; can be repeated")
+    options.add_argument("--repeats", metavar="N", type=int, default=5, help="runs of each, of which the median counts; default 5")
     options.add_argument("--list", action="store_true", help="the names of the cases")
     options.add_argument("--docs", action="store_true", help="write the tables of README.md and docs/peers.md from the last full run")
     chosen = options.parse_args()
@@ -184,18 +184,20 @@ def main():
     listed = [c for c in listed if (c.quick or not chosen.quick) and (not chosen.only or any(n in c.name for n in chosen.only))]
     if chosen.list:
         return print("\n".join(case.name for case in listed))
-    begun, load = time.time(), os.getloadavg()[0]
-    rows = [row for case in listed for row in measure(case)]
-    result = {"machine": table.machine(), "load": [load, os.getloadavg()[0]], "seconds": time.time() - begun, "rows": rows}
     full = not (chosen.quick or chosen.only)
     path = os.path.join(paths.CACHE, "peers.json" if full else "part.json")
-    with open(path, "w") as file:
-        json.dump(result, file, indent=1)
+    begun, load = time.time(), os.getloadavg()[0]
+    result = {"machine": table.machine(), "rows": []}
+    for case in listed:
+        result["rows"] += measure(case, max(chosen.repeats, 1))
+        result |= {"load": [load, os.getloadavg()[0]], "seconds": time.time() - begun}
+        with open(path, "w") as file:
+            json.dump(result, file, indent=1)
     print(table.whole(result))
     with open(path.replace(".json", ".md"), "w") as file:
         file.write(table.whole(result))
     print(f"\nwritten to {os.path.relpath(path)}", file=sys.stderr)
-    return 1 if any("skipped" in row for row in rows if row["tool"] == "slopegen") else 0
+    return 1 if any("skipped" in row for row in result["rows"] if row["tool"] == "slopegen") else 0
 
 
 if __name__ == "__main__":

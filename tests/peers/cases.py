@@ -34,6 +34,7 @@ EDT = "distance to cells, half a cell taken off"
 FMM = "level lines only; starts from exact distances within 4 cells (not timed)"
 KONAL = "starts from exact heights within 1.5 cells (not timed)"
 SINGLE = "single precision"
+WHOLE = "fill only; no mesh, no line"
 
 
 def heights(n, cells, sloping, peers, **more):
@@ -106,7 +107,7 @@ def whole(count, n, cells, **more):
             "numba",
             "volumes:whole_job",
             parameters | {"ply": paths.inputs(ground), "cell": cell},
-            "fill only; no mesh, no line",
+            WHOLE,
             cell == 2,
         )
         for cell in cells
@@ -156,7 +157,7 @@ CASES = [
     heights(1_000, 500, False, [IGL, MESHLIB, SCIPY, SKFMM], quick=True),
     heights(1_000, 1_000, False, [IGL, MESHLIB, shown(SCIPY), shown(SKFMM)], readme=True),
     heights(1_000, 2_000, False, [SCIPY, SKFMM]),
-    heights(10_000, 1_000, False, [IGL, MESHLIB], readme=True),
+    heights(10_000, 1_000, False, [IGL, MESHLIB]),
     heights(1_000, 500, True, [BRUTE, PYKONAL], quick=True),
     heights(1_000, 1_000, True, [BRUTE, shown(PYKONAL)], readme=True),
     heights(1_000, 2_000, True, [PYKONAL]),
@@ -166,12 +167,12 @@ CASES = [
     offsets(10_000, False, [GEOS, CLIPPER], readme=True),
     offsets(10_000, False, [GEOS], more_tolerance="0.00001"),
     offsets(10_000, True, [GEOS, CLIPPER]),
-    offsets(100_000, False, [GEOS], readme=True),
+    offsets(100_000, False, [GEOS]),
     roof(100, quick=True),
     roof(1_000, readme=True),
     volumes("rough", 50_000, False, [MANIFOLD, MESHLIB_VOLUME, *rasters(4, 2, 1)], quick=True),
     volumes("rough", 50_000, True, [MANIFOLD, MESHLIB_VOLUME], quick=True),
-    volumes("wedge", 50_000, False, [MANIFOLD, MESHLIB_VOLUME, *rasters(4, 2, 1)], quick=True),
+    volumes("wedge", 50_000, False, [MANIFOLD, MESHLIB_VOLUME], quick=True),
     volumes("rough", 500_000, False, [MANIFOLD, MESHLIB_VOLUME, *rasters(4, 2, 1)], readme=True),
     volumes("rough", 500_000, True, [MANIFOLD, MESHLIB_VOLUME], readme=True),
     whole(50_000, 1_000, [4, 2], quick=True),

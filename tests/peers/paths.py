@@ -9,3 +9,8 @@ CACHE = os.path.join(ROOT, "target", "peers")
 
 def inputs(name):
     return os.path.join(CACHE, "inputs", name)
+
+
+def fresh(path):
+    """Whether a file made from the shapes is there, and made by these shapes."""
+    return os.path.exists(path) and os.path.getmtime(path) > os.path.getmtime(os.path.join(HERE, "shapes.py"))

@@ -50,7 +50,7 @@ def mesh(columns, rows, seed, height):
     v = j + np.where((j > 0) & (j < rows - 1), dv, 0)
     x = np.round(u * (SIDE / (columns - 1)) / GRAIN) * GRAIN
     y = np.round(v * (SIDE / (rows - 1)) / GRAIN) * GRAIN
-    z = np.round(height(x, y) / GRAIN) * GRAIN
+    z = np.round(height(x, y) / GRAIN * 16) * GRAIN / 16  # the wedge is exact, too
     at = (j * columns + i)[:-1, :-1].ravel()
     a, b, c, d = at, at + 1, at + columns + 1, at + columns
     one = random.integers(0, 2, at.size).astype(bool)[:, None]

@@ -61,7 +61,7 @@ def short(result):
             continue
         job, title = ("" if row["title"] == title else row["title"]), row["title"]
         lines.append(f"| {job} | {_tool(row)} | {_seconds(row['cpu'])} | {_error(row, 'max')} | {row['said']} |")
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines) + f"\n\n*{result['machine']}.*\n"
 
 
 def commands(result):

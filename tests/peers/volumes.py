@@ -1,11 +1,11 @@
 """Cut and fill: between two meshes, and of a road on a terrain."""
 
 import json
-import os
 
 import exact
 import numba
 import numpy as np
+import paths
 import shapes
 
 K = 0.5
@@ -26,7 +26,7 @@ class Job:
     def check(self, got):
         if self.name == "wedge":
             return _relative(got, shapes.WEDGE)
-        if not os.path.exists(self.reference):
+        if not paths.fresh(self.reference):
             return {}
         with open(self.reference) as file:
             return _relative(got, json.load(file))
@@ -163,7 +163,7 @@ def _fill(ground, line, cell, blocks=1):
 
 def _reference(count, n, path):
     """The fill with cells of an eighth of a metre, kept in a file. Midpoints: halving the cells once more changes 2e-8 of it."""
-    if not os.path.exists(path):
+    if not paths.fresh(path):
         with open(path, "w") as file:
             json.dump([_fill(shapes.ground(count), shapes.road(n), 0.125, blocks=40)], file)
     with open(path) as file:
