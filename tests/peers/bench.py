@@ -5,6 +5,8 @@ import argparse
 import importlib.metadata
 import json
 import os
+import resource
+import select
 import statistics
 import subprocess
 import sys
@@ -17,7 +19,9 @@ import table
 # Processor seconds beyond which a peer runs three times, or once.
 SLOW, VERY_SLOW = 2.0, 8.0
 PATIENCE = 600  # wall seconds for one answer of a peer
-SLOPEGEN = os.environ.get("SLOPEGEN_DEV") or os.path.join(os.environ.get("CARGO_TARGET_DIR", os.path.join(paths.ROOT, "target")), "release", "slopegen")
+SLOPEGEN = os.environ.get("SLOPEGEN_DEV") or os.path.join(
+    os.environ.get("CARGO_TARGET_DIR", os.path.join(paths.ROOT, "target")), "release", "slopegen"
+)
 
 
 class Skipped(Exception):
@@ -35,8 +39,6 @@ class Worker:
         self.answer()
 
     def answer(self):
-        import select
-
         if not select.select([self.process.stdout], [], [], PATIENCE)[0]:
             raise Skipped(f"no answer within {PATIENCE} s")
         line = self.process.stdout.readline()
@@ -71,12 +73,20 @@ def run_program(command):
         if process.returncode != 0:
             log.seek(0)
             raise Skipped(f"exit code {process.returncode}: " + " ".join(log.read().split())[:200])
-    return {"cpu": used.ru_utime + used.ru_stime, "wall": wall, "mb": used.ru_maxrss / 1024}
+    # A child begins with the peak of its parent, below which nothing can be told.
+    floor = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return {
+        "cpu": used.ru_utime + used.ru_stime,
+        "wall": wall,
+        "mb": used.ru_maxrss / 1024,
+        "below": used.ru_maxrss <= 1.02 * floor,
+    }
 
 
 def middle(runs):
     return {key: statistics.median(run[key] for run in runs) for key in ("cpu", "wall")} | {
         "mb": max(run["mb"] for run in runs),
+        "below": any(run.get("below") for run in runs),
         "runs": len(runs),
     }
 
@@ -137,10 +147,10 @@ def measure(case, repeats):
     print(f"== {case.name}", file=sys.stderr)
     prepare(case)
     out = os.path.join(paths.CACHE, "out" + case.suffix)
-    places = {f"{{{name}}}": paths.inputs(name) for name in case.inputs}
-    command = [SLOPEGEN, *(places.get(word, word.replace("{out}", out)) for word in case.command)]
+    words = case.command.split()
+    command = [SLOPEGEN, *(paths.inputs(w[3:]) if w.startswith("IN:") else w.replace("OUT", out) for w in words)]
     ours = row_of(case, "slopegen", case.said, readme=True)
-    ours["command"] = " ".join(["slopegen", *(word.strip("{}") if word in places else word.replace("{out}", "out" + case.suffix) for word in case.command)])
+    ours["command"] = f"slopegen {case.command.replace('IN:', '').replace('OUT', 'out' + case.suffix)}"
     runs, rows = [], []
     for peer in case.peers:
         print(f"   {peer.label}", file=sys.stderr)
@@ -158,9 +168,9 @@ def measure(case, repeats):
     if runs:
         ours |= middle(runs) | {"ratio": 1.0}
         if case.check:
-            job, key, parameters = case.check
+            job, parameters = case.check
             try:
-                with Worker(job, {key: out} | parameters) as worker:
+                with Worker(job, {"path": out} | parameters) as worker:
                     worker.ask("go")
                     ours |= worker.ask("check")
             except Skipped as why:
@@ -172,20 +182,26 @@ def measure(case, repeats):
 def main():
     options = argparse.ArgumentParser(prog="tests/peers/run", description="slopegen beside other tools: accuracy and time.")
     options.add_argument("--quick", action="store_true", help="small sizes only, less than two minutes")
-    options.add_argument("--only", metavar="NAME", action="append", help="cases whose name has NAME in it; can be repeated")
-    options.add_argument("--repeats", metavar="N", type=int, default=5, help="runs of each, of which the median counts; default 5")
+    options.add_argument("--only", metavar="NAME", action="append", help="the case NAME, or those NAME begins; can be repeated")
+    options.add_argument(
+        "--repeats", metavar="N", type=int, default=5, help="runs of each, of which the median counts; default 5"
+    )
     options.add_argument("--list", action="store_true", help="the names of the cases")
-    options.add_argument("--docs", action="store_true", help="write the tables of README.md and docs/peers.md from the last full run")
+    options.add_argument(
+        "--docs", action="store_true", help="write the tables of README.md and docs/peers.md from the last full run"
+    )
     chosen = options.parse_args()
     if chosen.docs:
         return table.write_docs()
     tobj = os.path.join(paths.CACHE, "tobj", "release", "read_with_tobj")
-    listed = cases.CASES + cases.io_cases([tobj] if os.path.exists(tobj) else "the program could not be built")
-    listed = [c for c in listed if (c.quick or not chosen.quick) and (not chosen.only or any(n in c.name for n in chosen.only))]
+    listed = cases.all_cases([tobj] if os.path.exists(tobj) else "the program could not be built")
+    if chosen.only:
+        listed = [c for c in listed if any(c.name == name or c.name.startswith(name + "-") for name in chosen.only)]
+    if chosen.quick:
+        listed = [c for c in listed if c.quick]
     if chosen.list:
         return print("\n".join(case.name for case in listed))
-    full = not (chosen.quick or chosen.only)
-    path = os.path.join(paths.CACHE, "peers.json" if full else "part.json")
+    path = os.path.join(paths.CACHE, "part.json")
     begun, load = time.time(), os.getloadavg()[0]
     result = {"machine": table.machine(), "rows": []}
     for case in listed:
@@ -193,10 +209,11 @@ def main():
         result |= {"load": [load, os.getloadavg()[0]], "seconds": time.time() - begun}
         with open(path, "w") as file:
             json.dump(result, file, indent=1)
+    if not (chosen.quick or chosen.only):
+        os.rename(path, paths.FULL)
+        path = paths.FULL
     print(table.whole(result))
-    with open(path.replace(".json", ".md"), "w") as file:
-        file.write(table.whole(result))
-    print(f"\nwritten to {os.path.relpath(path)}", file=sys.stderr)
+    print(f"\nfigures in {os.path.relpath(path)}", file=sys.stderr)
     return 1 if any("skipped" in row for row in result["rows"] if row["tool"] == "slopegen") else 0
 
 

@@ -1,5 +1,6 @@
 """The closed form, written down once more: for every point, the highest of the heights every segment gives. Nothing of slopegen
-is used here. (docs/theory.md, section 2: height = z + g s' - k |x - p(s')|, with s' where the ruling through x leaves the segment.)"""
+is used here. (docs/theory.md, section 2: height = z + g s' - k |x - p(s')|, s' being where the ruling through x leaves the
+segment.)"""
 
 import numba
 import numpy as np

@@ -1,7 +1,8 @@
 """Heights of a slope of 1:2 on the nodes of a grid."""
 
-import exact
 import numpy as np
+
+import exact
 import shapes
 
 K = 0.5
@@ -129,7 +130,7 @@ def pykonal(**parameters):
         solver.velocity.node_intervals = job.cell, job.cell, 1
         solver.velocity.npts = (*job.shape, 1)
         solver.velocity.values = np.full((*job.shape, 1), 1 / K)
-        for (row, column), height in zip(seeds.tolist(), heights.tolist()):
+        for (row, column), height in zip(seeds.tolist(), heights.tolist(), strict=True):
             solver.traveltime.values[row, column, 0] = top - height
             solver.unknown[row, column, 0] = False
             solver.trial.push(row, column, 0)

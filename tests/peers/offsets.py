@@ -1,9 +1,11 @@
-"""Ten offsets of a level outline, 10 to 100 m: the level curves of a slope of 1:1. And the roof a straight skeleton makes of it."""
+"""Ten offsets of a level outline, 10 to 100 m: the level curves of a slope of 1:1. And the surface inside, beside a straight
+skeleton."""
 
 import json
 
-import exact
 import numpy as np
+
+import exact
 import shapes
 
 DISTANCES = np.arange(10.0, 101.0, 10.0)

@@ -5,6 +5,7 @@ import os
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 CACHE = os.path.join(ROOT, "target", "peers")
+FULL = os.path.join(CACHE, "peers.json")  # the figures of the last full run
 
 
 def inputs(name):

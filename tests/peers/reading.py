@@ -1,6 +1,7 @@
 """Reading a terrain: what other readers take before any work begins."""
 
 import numpy as np
+
 import shapes
 
 

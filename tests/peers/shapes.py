@@ -6,7 +6,7 @@ Z = 200.0  # elevation of level outlines, m
 BOX = 1000.0  # heights are asked for on the square from -BOX to BOX
 SIDE = 2000.0  # side of the square under terrains, m
 BASE = -100.0  # where solids for mesh booleans end, m
-# Multiples of all units in the last place that occur: coordinates are multiples of GRAIN, so that nothing is rounded by the shift.
+# A shift that rounds nothing: coordinates are multiples of GRAIN, and have 43 bits after it.
 UTM = (524_288.0, 5_242_880.0)
 GRAIN = 2.0**-20
 

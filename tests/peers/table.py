@@ -35,19 +35,26 @@ def _tool(row):
     return f"**{row['tool']}**" if row["tool"] == "slopegen" else f"{row['tool']} {row['version']}".strip()
 
 
+def _memory(row):
+    return f"{'< ' if row.get('below') else ''}{row['mb']:.0f}"
+
+
 def _ratio(row):
     return f"{row['ratio']:.2g}" if row["ratio"] < 10 else f"{row['ratio']:.0f}"
 
 
 def whole(result):
-    lines = ["| job | tool | CPU s | wall s | peak MB | CPU / slopegen's | RMS error | max error | |", "|---|---|---|---|---|---|---|---|---|"]
+    lines = [
+        "| job | tool | CPU s | wall s | peak MB | CPU / slopegen's | RMS error | max error | |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
     title = None
     for row in result["rows"]:
         job, title = ("" if row["title"] == title else row["title"]), row["title"]
         if "skipped" in row:
             lines.append(f"| {job} | {_tool(row)} | | | | | | | **not measured: {row['skipped'].replace('|', '/')}** |")
             continue
-        cells = [job, _tool(row), _seconds(row["cpu"]), _seconds(row["wall"]), f"{row['mb']:.0f}", _ratio(row)]
+        cells = [job, _tool(row), _seconds(row["cpu"]), _seconds(row["wall"]), _memory(row), _ratio(row)]
         lines.append(f"| {' | '.join([*cells, _error(row, 'rms'), _error(row, 'max'), row['said']])} |")
     load = "{:.1f} to {:.1f}".format(*sorted(result["load"]))
     return f"{result['machine']}; load {load}; {result['seconds'] / 60:.0f} minutes\n\n" + "\n".join(lines) + "\n"
@@ -78,7 +85,9 @@ def _between(path, mark, text):
 
 
 def write_docs():
-    with open(os.path.join(paths.CACHE, "peers.json")) as file:
+    if not os.path.exists(paths.FULL):
+        return "there was no full run yet: tests/peers/run"
+    with open(paths.FULL) as file:
         result = json.load(file)
     _between("README.md", "peers", short(result))
     _between("docs/peers.md", "peers", whole(result))

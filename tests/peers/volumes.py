@@ -2,9 +2,10 @@
 
 import json
 
-import exact
 import numba
 import numpy as np
+
+import exact
 import paths
 import shapes
 
@@ -116,11 +117,11 @@ def raster(cell, **parameters):
     return work, job.check
 
 
-def slopegen(report, **parameters):
+def slopegen(path, **parameters):
     job = Job(**parameters)
 
     def work():
-        with open(report) as file:
+        with open(path) as file:
             volumes = json.load(file)["volumes"]
         return volumes["cut"], volumes["fill"]
 
@@ -178,11 +179,11 @@ def whole_job(ply, count, n, cell, reference):
     return (lambda: [_fill(shapes.read_ply(ply), line, cell)]), lambda got: _relative(got, wanted)
 
 
-def slopegen_whole(report, count, n, reference):
+def slopegen_whole(path, count, n, reference):
     wanted = _reference(count, n, reference)
 
     def work():
-        with open(report) as file:
+        with open(path) as file:
             return [json.load(file)["volumes"]["fill"]]
 
     return work, lambda got: _relative(got, wanted)

@@ -1,7 +1,7 @@
 """One job of one peer, in a process of its own: `worker.py MODULE FUNCTION PARAMETERS`, driven by lines on standard input.
 
-The function prepares (untimed) and returns `work` and `check`. `go` runs `work` once and answers with its time; `check` answers with
-the errors of the last result."""
+The function prepares (untimed) and returns `work` and `check`. `go` runs `work` once and answers with its time; `check` answers
+with the errors of the last result."""
 
 import importlib
 import json
