@@ -203,7 +203,7 @@ def main():
         return print("\n".join(case.name for case in listed))
     path = os.path.join(paths.CACHE, "part.json")
     begun, load = time.time(), os.getloadavg()[0]
-    result = {"machine": table.machine(), "rows": []}
+    result = {"machine": table.machine(), "repeats": chosen.repeats, "rows": []}
     for case in listed:
         result["rows"] += measure(case, max(chosen.repeats, 1))
         result |= {"load": [load, os.getloadavg()[0]], "seconds": time.time() - begun}

@@ -56,8 +56,12 @@ def whole(result):
             continue
         cells = [job, _tool(row), _seconds(row["cpu"]), _seconds(row["wall"]), _memory(row), _ratio(row)]
         lines.append(f"| {' | '.join([*cells, _error(row, 'rms'), _error(row, 'max'), row['said']])} |")
+    return _setting(result) + "\n\n" + "\n".join(lines) + "\n"
+
+
+def _setting(result):
     load = "{:.1f} to {:.1f}".format(*sorted(result["load"]))
-    return f"{result['machine']}; load {load}; {result['seconds'] / 60:.0f} minutes\n\n" + "\n".join(lines) + "\n"
+    return f"*{result['machine']}; load {load}; median of {result['repeats']} runs; {result['seconds'] / 60:.0f} minutes*"
 
 
 def short(result):
@@ -68,7 +72,7 @@ def short(result):
             continue
         job, title = ("" if row["title"] == title else row["title"]), row["title"]
         lines.append(f"| {job} | {_tool(row)} | {_seconds(row['cpu'])} | {_error(row, 'max')} | {row['said']} |")
-    return "\n".join(lines) + f"\n\n*{result['machine']}.*\n"
+    return "\n".join(lines) + f"\n\n{_setting(result)}\n"
 
 
 def commands(result):
