@@ -42,6 +42,10 @@ bench:
     cargo bench --bench writing
     cargo bench --bench ground
 
+# slopegen beside other tools, which are installed into target/peers; see tests/peers/README.md. `just peers --quick`
+peers *OPTIONS:
+    tests/peers/run {{OPTIONS}}
+
 # The pictures of the README, from fixtures
 picture:
     mkdir -p out

@@ -1,4 +1,5 @@
 //! The README says what is so: its commands run, its report has the lines shown, its links lead somewhere.
+#![allow(clippy::print_stderr, reason = "tells what was skipped")]
 
 mod common;
 
@@ -175,4 +176,39 @@ fn anchor_of(heading: &str) -> String {
     let text = heading.trim_start_matches('#').trim().to_lowercase();
     let kept = text.chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
     kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+}
+
+/// The rows of the table between `<!-- mark -->` and `<!-- /mark -->`, cell by cell.
+fn rows_between(text: &str, mark: &str) -> Vec<Vec<String>> {
+    let rest = text.split_once(&format!("<!-- {mark} -->\n")).unwrap_or_else(|| panic!("no `{mark}`")).1;
+    let table = rest.split_once(&format!("<!-- /{mark} -->")).unwrap_or_else(|| panic!("`{mark}` has no end")).0;
+    let rows = table.lines().filter(|line| line.starts_with('|')).skip(2);
+    rows.map(|line| line.split('|').map(|cell| cell.trim().to_owned()).collect()).collect()
+}
+
+#[test]
+fn figures_of_other_tools_are_those_of_one_run() {
+    let (short, whole) = (rows_between(&read("README.md"), "peers"), rows_between(&read("docs/peers.md"), "peers"));
+    for row in &short {
+        // Job, tool, CPU, greatest error, remark; the whole table has more columns between.
+        let same = |other: &&Vec<String>| row[2..].iter().filter(|cell| !cell.is_empty()).all(|cell| other.contains(cell));
+        assert!(whole.iter().any(|other| same(&other)), "README.md has figures of another run than docs/peers.md: {row:?}");
+    }
+    assert!(short.len() > 10 && short.len() < whole.len(), "{} rows of {}", short.len(), whole.len());
+}
+
+#[test]
+fn scripts_beside_other_tools_are_sound() {
+    let folder = root().join("tests/peers");
+    let mut scripts: Vec<PathBuf> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    scripts.retain(|path| path.extension().is_some_and(|e| e == "py"));
+    assert!(scripts.len() > 5, "only {} scripts were found", scripts.len());
+    let compile = "import sys\nfor p in sys.argv[1:]: compile(open(p, encoding='utf-8').read(), p, 'exec')";
+    for (program, arguments) in [("python3", vec!["-c".into(), compile.into()]), ("bash", vec!["-n".into()])] {
+        let files = if program == "bash" { vec![folder.join("run")] } else { scripts.clone() };
+        match Command::new(program).args::<_, std::ffi::OsString>(arguments).args(&files).output() {
+            Ok(output) => assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr)),
+            Err(why) => eprintln!("SKIPPED: {program} cannot be run ({why}); the scripts in tests/peers are not looked at"),
+        }
+    }
 }
