@@ -3,6 +3,7 @@
 pub mod bulking;
 pub mod design;
 pub mod line;
+pub mod memory;
 pub mod notation;
 pub mod note;
 pub mod slope;
@@ -13,6 +14,7 @@ pub mod unit;
 pub use bulking::{Bulking, Share, ShareError};
 pub use design::{Design, Extent, Sheet, Side};
 pub use line::{Axis, Breakline, Chain, Line, Place, Role};
+pub use memory::{LimitedBy, Memory, Need, TooLarge};
 pub use notation::SlopeError;
 pub use note::{Defect, Defects, Note};
 pub use slope::Slope;
