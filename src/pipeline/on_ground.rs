@@ -55,8 +55,7 @@ pub(super) fn build(
         exactly: false,
     };
     let (terrain, area) = (terrain_figures(site.terrain()), site.area());
-    let formats: Vec<_> = job.finished.iter().map(|(_, format)| *format).collect();
-    room::for_works(site.terrain(), &ground_source.label, &formats, job.wants_finished(), &watch.memory())?;
+    room::for_works(job, site.terrain(), &ground_source.label, &watch.memory())?;
     let built = site.build(&designs, &options, watch).map_err(|cause| Error::Ground {
         label: source.label.clone(),
         ground: ground_source.label.clone(),

@@ -3,10 +3,10 @@
 //! Each figure is the peak of the whole process in a stage, from numbers known at its beginning. The factors were measured and
 //! rounded up: see "Memory" in `docs/performance.md`.
 
-use super::Error;
+use super::{BuildJob, Error};
 use crate::model::{Memory, Need, Terrain, Tin};
 use crate::read::terrain::{RawFaces, RawGround};
-use crate::write::{MeshFormat, RasterFormat};
+use crate::write::{MeshFormat, RasterFormat, Target};
 
 /// A vertex: three doubles.
 const VERTEX: u64 = 24;
@@ -55,25 +55,32 @@ pub(super) fn for_inspecting(ground: &RawGround, points: usize, label: &str, mem
     first.and_then(|()| room(memory, bytes, "look at the ground", label, figures, SMALLER))
 }
 
-/// Cutting a design off at ground that is held; with the finished ground and its outputs, if they are wanted.
-pub(super) fn for_works(
-    ground: &Terrain,
-    label: &str,
-    finished: &[MeshFormat],
-    wanted: bool,
-    memory: &Memory,
-) -> Result<(), Error> {
+/// Cutting a design off at ground that is held, with what is made of the ground then.
+pub(super) fn for_works(job: &BuildJob, ground: &Terrain, label: &str, memory: &Memory) -> Result<(), Error> {
     /// Of a triangle of the ground: near the works, in the finished ground, and as arrays of a GLB file with a colour for each
     /// vertex.
-    const PER_TRIANGLE: u64 = 34;
+    const PER_TRIANGLE: u64 = 40;
     const FINISHED: u64 = 30;
     const AS_GLB: u64 = 58;
-    let glb = finished.contains(&MeshFormat::Glb);
-    let per = PER_TRIANGLE + if wanted { FINISHED } else { 0 } + if glb { AS_GLB } else { 0 };
+    /// Where heights of the ground are looked up: for drawings, for stakes and colours, for a page with a 3D view.
+    const DRAWN: u64 = 40;
+    const LOOKED_UP: u64 = 62;
+    const PAGE: u64 = 135;
+    let is_glb = |(_, format): &(Target, MeshFormat)| *format == MeshFormat::Glb;
+    let (wanted, glb) = (job.wants_finished(), job.finished.iter().any(is_glb));
+    let page = job.reports.iter().any(|(_, format)| format.draws());
+    let drawn = match job.plots.is_empty() {
+        _ if page => PAGE,
+        _ if !job.stakes.is_empty() || job.meshes.iter().any(is_glb) => LOOKED_UP,
+        false => DRAWN,
+        true => 0,
+    };
+    let per = PER_TRIANGLE + if wanted { FINISHED } else { 0 } + if glb { AS_GLB } else { 0 } + drawn;
     let triangles = ground.triangles.len();
-    let help = match (glb, wanted) {
-        (true, _) => "write the finished ground as `.ply`",
-        (_, true) => "leave out `--finished`, or cut out the part around the works",
+    let help = match (glb, wanted, page) {
+        (true, ..) => "write the finished ground as `.ply`",
+        (_, _, true) => "write the report as `.md` or `.json`, and drawings with `--plot`",
+        (_, true, _) => "leave out `--finished`, or cut out the part around the works",
         _ => SMALLER,
     };
     room(memory, per * triangles as u64, "cut the ground", label, format!("its {triangles} triangles"), help)
@@ -125,7 +132,7 @@ pub(super) fn for_drawings(design: &Tin, label: &str, memory: &Memory) -> Result
 /// Bytes of a mesh with its line work.
 pub(super) fn of_tin(tin: &Tin) -> u64 {
     /// Beside its corners, of a triangle: part, marks, line work.
-    const MORE: u64 = 100;
+    const MORE: u64 = 130;
     VERTEX * tin.vertices.len() as u64 + (TRIANGLE + MORE) * tin.triangles.len() as u64
 }
 

@@ -111,8 +111,11 @@ pub fn inventory(path: &Path, options: &ReadOptions) -> Result<Inventory, ReadEr
         InputFormat::LandXml => held.extend(landxml::surfaces(&path.display().to_string(), &std::fs::read(path).map_err(open)?)?),
         _ => held.extend(raw_ground.map(|ground| held_ground(&ground.ground))),
     }
-    if let (InputFormat::Obj | InputFormat::Ply, Some(Held::Surface { parts, .. })) = (format, held.last_mut()) {
-        *parts = groups(path, format, &options.memory)?;
+    if let (InputFormat::Obj | InputFormat::Ply, Some(Held::Surface { vertices, faces, parts, .. })) = (format, held.last_mut()) {
+        /// Of a vertex and of a triangle: the mesh that was read is held.
+        const HELD: [usize; 2] = [24, 12];
+        let bytes = HELD[0] * *vertices + HELD[1] * *faces;
+        *parts = groups(path, format, &options.memory.holding(bytes as u64))?;
     }
     let mut bounds = None;
     raw_line.into_iter().for_each(|line| around_line(line, &mut bounds));

@@ -364,9 +364,89 @@ impl Sink {
 fn fill_buffered(sink: impl Write, encode: impl FnOnce(&mut dyn Write) -> Result<(), EncodeError>) -> Result<(), EncodeError> {
     /// Bytes gathered from small writes.
     const BUFFER: usize = 1 << 16;
-    let mut buffered = BufWriter::with_capacity(BUFFER, sink);
+    let mut buffered = BufWriter::with_capacity(BUFFER, Counting { sink, written: 0 });
     let result = encode(&mut buffered).and_then(|()| Ok(buffered.flush()?));
     // Dropping it would try to write the rest once more after a failure.
-    let _ = buffered.into_parts();
-    result
+    let (counting, _) = buffered.into_parts();
+    result.map_err(|cause| match cause {
+        EncodeError::Io(cause) if counting.written > 0 => {
+            io::Error::new(cause.kind(), format!("{cause}, after {} bytes", counting.written)).into()
+        }
+        other => other,
+    })
+}
+
+/// Counts the bytes a sink has taken.
+struct Counting<W> {
+    sink: W,
+    written: u64,
+}
+
+impl<W: Write> Write for Counting<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let taken = self.sink.write(bytes)?;
+        self.written += taken as u64;
+        Ok(taken)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.sink.flush()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let mut names: Vec<String> =
+            std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    /// Opens and writes files of these names, each with its name as content.
+    fn written(folder: &Path, files: &[&str]) -> Outputs {
+        let targets: Vec<Target> = files.iter().map(|name| Target::File(folder.join(name))).collect();
+        let mut outputs = Outputs::open::<PathBuf>(&targets, &[]).unwrap();
+        for (index, name) in files.iter().enumerate() {
+            outputs.write(index, |out| Ok(out.write_all(name.as_bytes())?)).unwrap();
+        }
+        outputs
+    }
+
+    #[test]
+    fn all_get_their_names_or_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        std::fs::write(path("old"), "as it was").unwrap();
+        let outputs = written(folder.path(), &["new", "old", "taken", "last"]);
+        // Meanwhile somebody makes a folder where the third is to be.
+        std::fs::create_dir(path("taken")).unwrap();
+        let error = outputs.commit().unwrap_err();
+        assert!(matches!(&error, WriteError::Open { target: Target::File(path), .. } if path.ends_with("taken")), "{error}");
+        assert_eq!(names(folder.path()), ["old", "taken"]);
+        assert_eq!(std::fs::read_to_string(path("old")).unwrap(), "as it was");
+
+        std::fs::remove_dir(path("taken")).unwrap();
+        written(folder.path(), &["new", "old", "taken", "last"]).commit().unwrap();
+        assert_eq!(names(folder.path()), ["last", "new", "old", "taken"]);
+        assert_eq!(std::fs::read_to_string(path("old")).unwrap(), "old");
+    }
+
+    #[test]
+    fn many_are_open_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let files: Vec<String> = (0..100).map(|i| format!("{i:02}")).collect();
+        let files: Vec<&str> = files.iter().map(String::as_str).collect();
+        let outputs = written(folder.path(), &files);
+        assert!(names(folder.path()).iter().all(|name| name.starts_with(".slopegen-") && name.ends_with(".part")));
+        let listed = |folder: &Path| unfinished().iter().filter(|path| path.starts_with(folder)).count();
+        assert_eq!(listed(folder.path()), 100);
+        outputs.commit().unwrap();
+        assert_eq!(names(folder.path()), files);
+        assert_eq!(listed(folder.path()), 0);
+        drop(written(folder.path(), &["more"]));
+        assert_eq!((listed(folder.path()), names(folder.path()).len()), (0, 100));
+    }
 }
