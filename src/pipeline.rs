@@ -13,6 +13,7 @@ mod heads;
 pub mod info;
 mod on_ground;
 mod rasters;
+mod room;
 pub mod sample;
 mod units;
 pub mod volume;
@@ -36,6 +37,7 @@ pub use watch::{Observer, WRITING};
 use crate::formation::{self, Formation};
 use crate::model::{LengthUnit, Line, Slope};
 use crate::read::{self, ReadOptions, Source};
+use crate::surface::Watch as _;
 use crate::validate;
 use std::path::PathBuf;
 
@@ -67,7 +69,8 @@ struct Given {
 /// Reads and checks a line; what is worth knowing goes to `observer`.
 fn read_line(input: &LineInput, observer: &watch::Stopwatch<'_>) -> Result<Given, Error> {
     observer.stage_of(watch::READING);
-    let mut raw = read::read_line(&input.path, &input.options)?;
+    let options = ReadOptions { memory: observer.memory(), ..input.options.clone() };
+    let mut raw = read::read_line(&input.path, &options)?;
     let unit = input.unit.or(raw.source.unit).unwrap_or_default();
     let converted = units::convert_line(&mut raw, unit);
     raw.notes.extend(converted);

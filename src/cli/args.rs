@@ -314,6 +314,9 @@ pub(super) struct Running {
     /// Number of threads [default: one for each processor]
     #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = help::RUNNING)]
     pub(super) threads: Option<String>,
+    /// Refuse work that would take more memory than this, such as 2GB or 1500MiB [default: what there is]
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true, help_heading = help::RUNNING)]
+    pub(super) max_memory: Option<String>,
 }
 
 /// When there are colours.

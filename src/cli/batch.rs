@@ -7,7 +7,7 @@ use super::exit_code::Code;
 use super::help;
 use super::job;
 use super::job_file::{self, JobFile};
-use crate::model::Note;
+use crate::model::{Memory, Note};
 use crate::pipeline::{self, Batch, BuildJob, Built, Error, Observer};
 use crate::read::ReadError;
 use crate::report::{BatchReport, JobResult, JobRow, JobVolumes, Warning, render_batch};
@@ -72,7 +72,7 @@ pub(super) fn run(args: &BatchArgs) -> anyhow::Result<Code> {
     let at_once = checks.finish(at_once)?;
     let tasks: Vec<Task> = paths(args)?.iter().map(|path| task(path)).collect();
     apart(&tasks, reports.iter().map(|(target, _)| target))?;
-    super::start(&args.running)?;
+    let memory = super::start(&args.running)?;
     let all = console::targets(&reports);
     let screen = Screen::take(&mut reports, &all);
     let jobs: Vec<PathBuf> = tasks.iter().map(|task| PathBuf::from(&task.label)).collect();
@@ -80,9 +80,11 @@ pub(super) fn run(args: &BatchArgs) -> anyhow::Result<Code> {
 
     let begun = Instant::now();
     let batch = Batch { at_once: at_once.min(tasks.len()), fail_fast: args.fail_fast };
+    // Whatever the others take, so that what is refused does not depend on who is first.
+    let share = memory.shared(batch.at_once);
     let refused = args.fail_fast && tasks.iter().any(|task| task.job.is_err());
     let work = |index: usize| {
-        let outcome = work(&tasks[index], refused);
+        let outcome = work(&tasks[index], refused, share);
         // Where nothing is run, all files that are wrong are told.
         (refused || outcome.as_ref().is_some_and(|outcome| outcome.code == Code::Done), outcome)
     };
@@ -203,17 +205,17 @@ fn apart<'a>(tasks: &[Task], summary: impl Iterator<Item = &'a Target>) -> Resul
 }
 
 /// Does a job; `None`: not begun, because the file of another is wrong.
-fn work(task: &Task, refused: bool) -> Option<Outcome> {
+fn work(task: &Task, refused: bool, memory: Memory) -> Option<Outcome> {
     let (job, file) = match &task.job {
         Ok(_) if refused => return None,
         Ok(job) => job,
         Err(error) => return Some(failed(&task.label, Code::of(error), format!("{error:#}"), 0.0)),
     };
     let begun = Instant::now();
-    let listener = Listener::default();
+    let listener = Listener { memory, notes: Mutex::default() };
     let built = pipeline::build(job, &listener);
     let seconds = begun.elapsed().as_secs_f64();
-    let notes = listener.0.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let notes = listener.notes.into_inner().unwrap_or_else(PoisonError::into_inner);
     let outcome = match built {
         Ok(built) => Outcome { row: done(&task.label, &built, seconds), code: Code::Done, notes: Vec::new() },
         Err(error) => {
@@ -276,22 +278,29 @@ fn tell(outcome: &Outcome, running: &Running) {
 
 /// The gravest of some codes: what may concern all jobs before what concerns one.
 fn gravest(codes: impl Iterator<Item = Code>) -> Code {
-    const ORDER: [Code; 7] = [Code::Done, Code::Work, Code::Check, Code::Usage, Code::Input, Code::Output, Code::Interrupted];
+    const ORDER: [Code; 8] =
+        [Code::Done, Code::Work, Code::Check, Code::Usage, Code::Input, Code::Output, Code::Memory, Code::Interrupted];
     let rank = |code: &Code| ORDER.iter().position(|other| other == code);
     codes.max_by_key(rank).unwrap_or(Code::Done)
 }
 
 /// Keeps what is said.
-#[derive(Default)]
-struct Listener(Mutex<Vec<Note>>);
+struct Listener {
+    memory: Memory,
+    notes: Mutex<Vec<Note>>,
+}
 
 impl Watch for Listener {
     fn stage(&self, _: &'static str) {}
+
+    fn memory(&self) -> Memory {
+        self.memory
+    }
 }
 
 impl Observer for Listener {
     fn note(&self, note: &Note) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(note.clone());
+        self.notes.lock().unwrap_or_else(PoisonError::into_inner).push(note.clone());
     }
 }
 

@@ -3,7 +3,7 @@
 mod paint;
 
 use super::args::Running;
-use crate::model::Note;
+use crate::model::{Memory, Note};
 use crate::pipeline::{Observer, WRITING};
 use crate::report::ReportFormat;
 use crate::surface::Watch;
@@ -93,13 +93,15 @@ pub(super) struct Console {
     verbose: bool,
     /// Notes are seen elsewhere: in a report on the terminal.
     notes_elsewhere: bool,
+    /// What the run may take.
+    memory: Memory,
     progress: Option<ProgressBar>,
     stage: Mutex<Option<(&'static str, Instant)>>,
 }
 
 impl Console {
     /// A console; `notes_elsewhere` where a report shows the notes on the same terminal.
-    pub(super) fn new(running: &Running, notes_elsewhere: bool) -> Self {
+    pub(super) fn new(running: &Running, memory: Memory, notes_elsewhere: bool) -> Self {
         let progress = (!running.quiet && std::io::stderr().is_terminal()).then(|| {
             let bar = ProgressBar::new_spinner();
             if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {
@@ -108,7 +110,7 @@ impl Console {
             bar.enable_steady_tick(FRAME);
             bar
         });
-        Self { quiet: running.quiet, verbose: running.verbose, notes_elsewhere, progress, stage: Mutex::default() }
+        Self { quiet: running.quiet, verbose: running.verbose, notes_elsewhere, memory, progress, stage: Mutex::default() }
     }
 
     /// Tells of a file that has appeared; `size` may be empty.
@@ -156,6 +158,10 @@ impl Drop for Console {
 }
 
 impl Watch for Console {
+    fn memory(&self) -> Memory {
+        self.memory
+    }
+
     fn stage(&self, name: &'static str) {
         self.end_stage(Some(name));
         if let Some(bar) = &self.progress {

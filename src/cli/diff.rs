@@ -57,11 +57,11 @@ pub(super) struct DiffArgs {
 /// Compares, and fails beyond a bound.
 pub(super) fn run(args: &DiffArgs) -> anyhow::Result<Code> {
     let mut job = job(args)?;
-    super::start(&args.running)?;
+    let memory = super::start(&args.running)?;
     let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
     let all = console::targets(&job.reports);
     let screen = Screen::take(&mut job.reports, &all);
-    let console = Console::new(&args.running, to_terminal);
+    let console = Console::new(&args.running, memory, to_terminal);
     let differed = pipeline::diff(&job, &console)?;
     console.finish();
     super::show(screen, |out| Ok(out.write_all(render_diff(&differed.report).as_bytes())?))?;

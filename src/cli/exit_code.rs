@@ -1,5 +1,6 @@
 //! What the process exits with.
 
+use super::NoThreads;
 use super::checks::UsageErrors;
 use crate::ground::GroundError;
 use crate::pipeline::{Beyond, Error, NotPassed};
@@ -22,6 +23,8 @@ pub(super) enum Code {
     Output = 4,
     /// The result did not pass its checks.
     Check = 5,
+    /// There is not enough memory.
+    Memory = 6,
     /// Ended from outside; 128 and the number of the signal, as shells have it.
     Interrupted = 130,
 }
@@ -35,9 +38,13 @@ impl Code {
         if error.is::<NotPassed>() || error.is::<Beyond>() {
             return Self::Check;
         }
+        if error.is::<NoThreads>() {
+            return Self::Memory;
+        }
         match error.downcast_ref::<Error>() {
             // Seen from the arguments alone, without opening a file.
             Some(Error::Read(ReadError::StdinFormat | ReadError::UnknownFormat { .. })) => Self::Usage,
+            Some(Error::TooLarge(_) | Error::Read(ReadError::TooLarge(_))) => Self::Memory,
             Some(Error::Read(_)) => Self::Input,
             Some(Error::Write(error)) if error.is_usage() => Self::Usage,
             Some(Error::Write(_)) => Self::Output,
@@ -64,6 +71,7 @@ impl Code {
     fn of_surface(cause: &SurfaceError) -> Self {
         match cause {
             SurfaceError::Cancelled => Self::Interrupted,
+            SurfaceError::TooLarge(_) => Self::Memory,
             SurfaceError::Unclosed { .. } | SurfaceError::Unsound { .. } => Self::Check,
             _ => Self::Work,
         }
@@ -108,12 +116,14 @@ mod tests {
         assert_eq!(code(WriteError::IsFolder(Target::Stdout)), Code::Usage);
         let cause = EncodeError::ReportNotFinite("a".into());
         assert_eq!(code(WriteError::Write { target: Target::Stdout, cause }), Code::Output);
-        assert_eq!(Code::of(&anyhow::anyhow!("the threads could not be started")), Code::Work);
+        assert_eq!(Code::of(&NoThreads.into()), Code::Memory);
+        assert_eq!(Code::of(&anyhow::anyhow!("something else")), Code::Work);
     }
 
     #[test]
     fn the_numbers_do_not_change() {
-        let codes = [Code::Done, Code::Work, Code::Usage, Code::Input, Code::Output, Code::Check, Code::Interrupted];
-        assert_eq!(codes.map(|code| code as u8), [0, 1, 2, 3, 4, 5, 130]);
+        let codes =
+            [Code::Done, Code::Work, Code::Usage, Code::Input, Code::Output, Code::Check, Code::Memory, Code::Interrupted];
+        assert_eq!(codes.map(|code| code as u8), [0, 1, 2, 3, 4, 5, 6, 130]);
     }
 }

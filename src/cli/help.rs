@@ -19,7 +19,8 @@ Exit codes:
   3  an input could not be read
   4  an output could not be written
   5  the result did not pass its checks, or a bound
-  130  interrupted";
+  6  there is not enough memory
+  130  interrupted (129 hung up, 143 terminated)";
 
 const AFTER: &str = "\
 Examples:
@@ -100,7 +101,7 @@ Examples:
   slopegen batch --list jobs.txt --fail-fast
       the job files named in a text file; none is begun after the first that fails
 
-Exits with 0 when all jobs are done, else with the gravest of their codes: 130, 4, 3, 2, 5, 1 in this order.";
+Exits with 0 when all jobs are done, else with the gravest of their codes: 130, 6, 4, 3, 2, 5, 1 in this order.";
 
 const AFTER_DIFF: &str = "\
 Examples:

@@ -49,13 +49,13 @@ pub(super) fn run(args: &InfoArgs) -> anyhow::Result<Code> {
     let unit = checks.unit(args.units.as_ref());
     let reports = checks.plain_reports(&args.report, args.running.quiet);
     let mut reports = checks.finish(Some(reports))?;
-    super::start(&args.running)?;
+    let memory = super::start(&args.running)?;
     let to_terminal = reports.iter().any(|(target, _)| console::is_terminal(target));
     let all = console::targets(&reports);
     let screen = Screen::take(&mut reports, &all);
     let targets = console::targets(&reports);
     let mut outputs = Outputs::open(&targets, std::slice::from_ref(&args.file)).map_err(pipeline::Error::from)?;
-    let console = Console::new(&args.running, to_terminal);
+    let console = Console::new(&args.running, memory, to_terminal);
     let pick = Pick { surface: args.surface.clone(), ..Pick::default() };
     let report = if job_file::is_job(&args.file) {
         job(&args.file)?

@@ -1,6 +1,6 @@
 //! Arguments as typed → jobs in which everything is checked that can be without the input.
 
-use super::args::{BuildArgs, DirectionArg, FormatArg, InputArgs, Running, SampleArgs, SideArg, SlopeArgs, VolumeArgs};
+use super::args::{BuildArgs, DirectionArg, FormatArg, InputArgs, SampleArgs, SideArg, SlopeArgs, VolumeArgs};
 use super::checks::{Checks, LEAST_LENGTH, UsageErrors, ending, placed, targets};
 use super::number::{self, Rule};
 use crate::formation::{Crossfall, Formation};
@@ -314,6 +314,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
                 ..Pick::default()
             },
             unit,
+            ..TerrainOptions::default()
         },
         allow_open: args.allow_open,
     });
@@ -422,13 +423,12 @@ pub(super) fn volume_job(args: &VolumeArgs) -> Result<VolumeJob, UsageErrors> {
 ///
 /// # Errors
 /// What is wrong with it.
-pub(super) fn threads(args: &Running) -> Result<Option<usize>, UsageErrors> {
-    let Some(text) = &args.threads else { return Ok(None) };
+pub(super) fn threads(text: &str) -> Result<usize, String> {
     match text.parse::<usize>() {
-        Ok(n) if (1..=MOST_THREADS).contains(&n) => Ok(Some(n)),
-        _ => Err(UsageErrors::one(format!(
+        Ok(n) if (1..=MOST_THREADS).contains(&n) => Ok(n),
+        _ => Err(format!(
             "`{text}` is not a number of threads\n  --> --threads {text}\n   = help: give a whole number from 1 to {MOST_THREADS}"
-        ))),
+        )),
     }
 }
 

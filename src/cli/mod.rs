@@ -13,19 +13,24 @@ mod info;
 mod interrupt;
 mod job;
 mod job_file;
+mod memory;
 mod number;
 
 pub use args::command;
+pub use memory::out_of_memory;
 
+use crate::model::Memory;
 use crate::pipeline::{Error, NotPassed};
 use crate::write::{Target, WriteError};
 use anyhow::Context as _;
 use args::{Command, Running};
+use checks::Checks;
 use console::{Console, Screen};
 use exit_code::Code;
 use job_file::Stop;
 use std::ffi::OsString;
 use std::process::ExitCode;
+use std::sync::Mutex;
 
 /// Runs the program with its arguments, the first of which is its own name. Results go to files and standard output, all else
 /// to standard error. Returns what the process should exit with.
@@ -80,6 +85,7 @@ pub fn understand(arguments: impl IntoIterator<Item = OsString>) -> Result<(), S
 }
 
 fn dispatch(command: Command) -> anyhow::Result<Code> {
+    interrupt::install().context("the handler for interrupts could not be installed")?;
     match command {
         Command::Build(wanted) => build(&wanted),
         Command::Check(wanted) => check(&wanted),
@@ -95,11 +101,11 @@ fn dispatch(command: Command) -> anyhow::Result<Code> {
 
 fn build(wanted: &args::BuildArgs) -> anyhow::Result<Code> {
     let mut job = job::build_job(wanted)?;
-    start(&wanted.running)?;
+    let memory = start(&wanted.running)?;
     let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
     let all = job.footprint().outputs;
     let screen = Screen::take(&mut job.reports, &all);
-    let console = Console::new(&wanted.running, to_terminal);
+    let console = Console::new(&wanted.running, memory, to_terminal);
     let built = crate::pipeline::build(&job, &console)?;
     console.finish();
     show(screen, |out| crate::report::write_text(out, &built.report))?;
@@ -113,12 +119,12 @@ fn build(wanted: &args::BuildArgs) -> anyhow::Result<Code> {
 
 fn check(wanted: &check::CheckArgs) -> anyhow::Result<Code> {
     let mut job = check::check_job(wanted)?;
-    start(&wanted.running)?;
+    let memory = start(&wanted.running)?;
     // The report shows the notes on the same terminal.
     let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
     let all = console::targets(&job.reports);
     let screen = Screen::take(&mut job.reports, &all);
-    let console = Console::new(&wanted.running, to_terminal);
+    let console = Console::new(&wanted.running, memory, to_terminal);
     let looked = crate::pipeline::check(&job, &console)?;
     console.finish();
     show(screen, |out| crate::report::ReportFormat::Text.write_check(out, &looked.report))?;
@@ -131,11 +137,11 @@ fn check(wanted: &check::CheckArgs) -> anyhow::Result<Code> {
 
 fn volume(wanted: &args::VolumeArgs) -> anyhow::Result<Code> {
     let mut job = job::volume_job(wanted)?;
-    start(&wanted.running)?;
+    let memory = start(&wanted.running)?;
     let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
     let all = console::targets(&job.reports);
     let screen = Screen::take(&mut job.reports, &all);
-    let console = Console::new(&wanted.running, to_terminal);
+    let console = Console::new(&wanted.running, memory, to_terminal);
     let compared = crate::pipeline::volume(&job, &console)?;
     console.finish();
     show(screen, |out| crate::report::write_between(out, &compared.report))?;
@@ -145,8 +151,8 @@ fn volume(wanted: &args::VolumeArgs) -> anyhow::Result<Code> {
 
 fn sample(wanted: &args::SampleArgs) -> anyhow::Result<Code> {
     let job = job::sample_job(wanted)?;
-    start(&wanted.running)?;
-    let console = Console::new(&wanted.running, false);
+    let memory = start(&wanted.running)?;
+    let console = Console::new(&wanted.running, memory, false);
     let sampled = crate::pipeline::sample(&job, &console)?;
     console.finish();
     if !job.output.is_stream() {
@@ -161,11 +167,38 @@ fn show(screen: Option<Screen>, write: impl FnOnce(&mut Vec<u8>) -> Result<(), c
     screen.map_or(Ok(()), |screen| screen.show(write)).map_err(failed)
 }
 
-/// What must stand before the work begins.
-fn start(running: &Running) -> anyhow::Result<()> {
-    interrupt::install().context("the handler for interrupts could not be installed")?;
-    if let Some(threads) = job::threads(running)? {
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().context("the threads could not be started")?;
-    }
-    Ok(())
+/// What must stand before the work begins; tells how much memory it may take.
+fn start(running: &Running) -> anyhow::Result<Memory> {
+    let mut checks = Checks::default();
+    let threads = running.threads.as_ref().and_then(|text| checks.take(job::threads(text)));
+    let asked = running.max_memory.as_ref().and_then(|text| checks.take(memory::read(text)));
+    checks.finish(Some(()))?;
+    let memory = memory::limit(asked);
+    // Always a number of our own: what RAYON_NUM_THREADS says does not matter.
+    let wanted = threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
+    let begun = match startable(wanted) {
+        0 => None,
+        count => rayon::ThreadPoolBuilder::new().num_threads(count).build_global().ok(),
+    };
+    begun.map(|()| memory).ok_or_else(|| NoThreads.into())
 }
+
+/// How many threads of `wanted` can be had at once. Limits of memory and of processes refuse some or all of them, and a pool
+/// cannot be tried twice.
+fn startable(wanted: usize) -> usize {
+    let gate = Mutex::new(());
+    std::thread::scope(|scope| {
+        // Held until all have begun: a thread that ended would make room for the next.
+        let _closed = gate.lock();
+        let wait = || drop(gate.lock());
+        (0..wanted).take_while(|_| std::thread::Builder::new().spawn_scoped(scope, wait).is_ok()).count()
+    })
+}
+
+/// Not a single thread could be had.
+#[derive(Clone, Copy, Debug, thiserror::Error)]
+#[error(
+    "no thread could be started\n   = the system refused: too little memory, or too many processes\n   \
+     = help: raise what `ulimit -v` or `ulimit -u` allow, or end other programs"
+)]
+struct NoThreads;

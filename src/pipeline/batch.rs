@@ -76,9 +76,9 @@ pub fn run_batch<R: Send>(
         }
     };
     std::thread::scope(|scope| {
-        for _ in 1..batch.at_once.min(count) {
-            scope.spawn(one_by_one);
-        }
+        // Where the system gives no more threads, there are fewer jobs at once.
+        let more = (1..batch.at_once.min(count)).map(|_| std::thread::Builder::new().spawn_scoped(scope, one_by_one));
+        let _ = more.take_while(Result::is_ok).count();
         one_by_one();
     });
     progress.into_inner().unwrap_or_else(PoisonError::into_inner).results

@@ -5,6 +5,7 @@ use super::heads::{LocalOrigin, Names, coarse, has_colours, heights_over, is_loc
 use super::watch::{CHECKING, Observer, PREPARING, READING, READING_GROUND, Stopwatch, WRITING};
 use super::{
     BuriedError, Error, Given, GroundInput, LineInput, Rasters, Wishes, check_steepness, figures, on_ground, rasters, read_line,
+    room,
 };
 use crate::ground::{Pieces, Stations, Tallied, axes};
 use crate::kernel::frame::Frame;
@@ -14,7 +15,7 @@ use crate::read::Source;
 use crate::report::{CrossfallFigures, Report, ReportFormat, write_station_table};
 use crate::setout::{self, Stake};
 use crate::slope::levels::LEVEL_SNAP;
-use crate::surface;
+use crate::surface::{self, Watch as _};
 use crate::write::{
     Delivery, Earthworks, Head, LineFormat, MeshFormat, Outputs, RasterFormat, Target, WriteError, origin, write_origin,
     write_stakes,
@@ -113,9 +114,12 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
         false => staked(job, &line, &design, survey.as_ref())?,
     };
 
-    let grid = |wanted: &[_], tin: &Tin| match wanted.is_empty() {
+    // The ground itself is held on for drawings only.
+    let drawn = survey.as_ref().map_or(0, |survey| room::of_ground(&survey.terrain));
+    watch.holds(drawn + room::of_tin(&design) + finished.as_ref().map_or(0, room::of_tin));
+    let grid = |wanted: &[(Target, RasterFormat)], tin: &Tin| match wanted.is_empty() {
         true => Ok(None),
-        false => rasters::sample(tin, job.rasters.cell, &source.label).map(Some),
+        false => rasters::sample(tin, job.rasters.cell, wanted, &source.label, &watch.memory()).map(Some),
     };
     let raster = grid(&job.rasters.design, &design)?;
     let finished_raster = finished.as_ref().map(|tin| grid(&job.rasters.finished, tin)).transpose()?.flatten();
@@ -147,6 +151,9 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     let about = |format: MeshFormat| Head { origin: Some(local).filter(|_| is_local(job, format)), ..head };
     let over_ground = |tin: &Tin| survey.as_ref().filter(|_| has_colours(job)).and_then(|s| heights_over(tin, &s.terrain));
     let (depths, finished_depths) = (over_ground(&design), finished.as_ref().and_then(over_ground));
+    if !job.plots.is_empty() || job.reports.iter().any(|(_, format)| format.draws()) {
+        room::for_drawings(&design, &source.label, &watch.memory())?;
+    }
     let mut put = |index: usize, report: &Report| -> Result<Delivery, WriteError> {
         outputs.write(index, |out| match contents[index] {
             Content::Mesh(format) => format.write(out, &design, &Head { depths: depths.as_deref(), ..about(format) }),

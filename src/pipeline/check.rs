@@ -1,12 +1,13 @@
 //! A mesh from anywhere, looked at as it is.
 
 use super::watch::{CHECKING, Observer, READING, Stopwatch, WRITING};
-use super::{Error, figures};
+use super::{Error, figures, room};
 use crate::mesh::quality::{self, Bound, Kind, Mesh, Options};
 use crate::model::{Defect, Defects, Note, Part, Slope};
 use crate::read::terrain::{RawFaces, RawMesh, read_mesh};
 use crate::read::{InputFormat, Pick};
 use crate::report::{CheckReport, Checked, ReportFormat, Warning};
+use crate::surface::Watch as _;
 use crate::terrain;
 use crate::write::{Outputs, Target};
 use std::collections::BTreeMap;
@@ -63,7 +64,12 @@ pub fn check(job: &CheckJob, observer: &dyn Observer) -> Result<Looked, Error> {
     let targets: Vec<Target> = job.reports.iter().map(|(target, _)| target.clone()).collect();
     let mut outputs = Outputs::open(&targets, std::slice::from_ref(&job.path))?;
     watch.stage_of(READING);
-    let raw = read_mesh(&job.path, job.format, &job.pick)?;
+    let raw = read_mesh(&job.path, job.format, &job.pick, &watch.memory())?;
+    let corners = match &raw.faces {
+        RawFaces::Triangles(triangles) => 3 * triangles.len(),
+        RawFaces::Polygons { corners, .. } => 3 * corners.len(),
+    };
+    room::for_checking(raw.vertices.len(), corners, &raw.source.label, &watch.memory())?;
     raw.notes.iter().for_each(|note| watch.note(note));
     let bound = job.slope.as_ref().map(|wish| bound(wish, &raw)).transpose()?;
     watch.stage_of(CHECKING);

@@ -1,7 +1,7 @@
 //! What differs between two reports, or between two surfaces.
 
 use super::watch::{Named, Observer, Stopwatch, WRITING};
-use super::{Error, read_ground};
+use super::{Error, read_ground, room};
 use crate::overlay::{self, AREA_ROUNDING, Between, Depth, OverlayError, SAME_HEIGHT};
 use crate::read::terrain::TerrainOptions;
 use crate::read::{Document, InputFormat, Source, read_document};
@@ -242,8 +242,11 @@ fn surfaces(job: &DiffJob, watch: &Stopwatch<'_>) -> Result<DiffReport, Error> {
     };
     let asked = job.options.unit;
     let first = read(&job.first, asked, "first")?;
+    watch.holds(room::of_ground(&first.0));
     let second = read(&job.second, asked.or(first.1.unit), "second")?;
     let unit = asked.or(first.1.unit).or(second.1.unit).unwrap_or_default();
+    watch.holds(room::of_ground(&first.0) + room::of_ground(&second.0));
+    room::for_overlay(first.0.triangles.len() + second.0.triangles.len(), &second.1.label, &watch.memory())?;
     watch.stage("compare");
     let found = overlay::between(&second.0, &first.0, None).map_err(|cause| apart(&cause, &first.1, &second.1))?;
     let input = |role: &str, source: &Source| Input {

@@ -5,7 +5,7 @@ use super::diff::DiffError;
 use super::volume::ComparisonError;
 use crate::formation::FormationError;
 use crate::ground::{GroundError, TooManyStations};
-use crate::model::{Defects, Slope};
+use crate::model::{Defects, Slope, TooLarge};
 use crate::read::ReadError;
 use crate::report::BuriedStretch;
 use crate::surface::SurfaceError;
@@ -60,6 +60,9 @@ pub enum Error {
     /// Stretches of the line are buried, and that was not to be.
     #[error(transparent)]
     Buried(#[from] BuriedError),
+    /// The work would take more memory than it may.
+    #[error(transparent)]
+    TooLarge(#[from] TooLarge),
     /// An output could not be opened or written.
     #[error(transparent)]
     Write(#[from] WriteError),

@@ -1,6 +1,6 @@
 //! Reading existing ground.
 
-use super::{Error, Observer, units, watch};
+use super::{Error, Observer, room, units, watch};
 use crate::model::{LengthUnit, Terrain};
 use crate::read::Source;
 use crate::read::terrain::{TerrainOptions, read_terrain};
@@ -18,13 +18,14 @@ pub fn read_ground(
     observer: &dyn Observer,
 ) -> Result<(Terrain, Source), Error> {
     observer.stage(watch::READING_GROUND);
-    let mut raw = read_terrain(path, options)?;
+    let mut raw = read_terrain(path, &TerrainOptions { memory: observer.memory(), ..options.clone() })?;
     if let Some(unit) = unit {
         let note = units::convert_ground(&mut raw, unit);
         raw.notes.extend(note);
     }
     let source = raw.source.clone();
     observer.stage(watch::PREPARING);
+    room::for_preparing(&raw.ground, &source.label, &observer.memory())?;
     let prepared = terrain::prepare(raw)?;
     prepared.notes.iter().for_each(|note| observer.note(note));
     Ok((prepared.terrain, source))

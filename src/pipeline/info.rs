@@ -1,7 +1,7 @@
 //! What a file holds, and what a build would say of it.
 
-use super::Error;
 use super::watch::{CHECKING, Observer, PREPARING, READING};
+use super::{Error, room};
 use crate::kernel::sum::Sum;
 use crate::model::{Defects, LengthUnit, Note, Terrain};
 use crate::read::terrain::{RawTerrain, TerrainOptions, read_terrain};
@@ -22,6 +22,7 @@ pub fn info(path: &Path, options: &ReadOptions, observer: &dyn Observer) -> Resu
     if let Some(document) = read_document(path)? {
         return Ok(of_document(path, &document));
     }
+    let options = &ReadOptions { memory: observer.memory(), ..options.clone() };
     let found = inventory(path, options)?;
     let source = found.source().cloned();
     let mut report = InfoReport {
@@ -38,6 +39,10 @@ pub fn info(path: &Path, options: &ReadOptions, observer: &dyn Observer) -> Resu
     };
     found.held.iter().for_each(|held| hold(held, &mut report));
     let Inventory { line, ground, .. } = found;
+    if let Some(Ok(ground)) = &ground {
+        let points = line.iter().flatten().flat_map(|raw| &raw.lines).map(|line| line.vertices.len()).sum();
+        room::for_inspecting(&ground.ground, points, &ground.source.label, &observer.memory())?;
+    }
     let mut unread: Vec<ReadError> = Vec::new();
     if let Some(line) = line {
         observer.stage(CHECKING);
@@ -64,7 +69,13 @@ pub fn info(path: &Path, options: &ReadOptions, observer: &dyn Observer) -> Resu
         // Each of several surfaces may be ground.
         for name in several.into_iter().take(MOST_SURFACES) {
             let pick = Pick { surface: Some(name.clone()), ..options.pick.clone() };
-            let known = TerrainOptions { format: None, csv_order: options.csv_order.clone(), pick, unit: options.unit };
+            let known = TerrainOptions {
+                format: None,
+                csv_order: options.csv_order.clone(),
+                pick,
+                unit: options.unit,
+                memory: options.memory,
+            };
             let row = match read_terrain(path, &known) {
                 Ok(raw) => as_ground(raw, Some(name), &mut report),
                 Err(error) => UseRow { name: Some(name), ..not_read("ground", error, &mut unread) },

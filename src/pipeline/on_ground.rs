@@ -2,12 +2,13 @@
 
 use super::build::{BuildJob, Product, Survey, missed_levels};
 use super::watch::Stopwatch;
-use super::{Error, Wishes, check_steepness, figures, ground};
+use super::{Error, Wishes, check_steepness, figures, ground, room};
 use crate::ground::{Options, Site};
 use crate::model::{Design, Extent, LengthUnit, Line, Sheet, Side, Terrain};
 use crate::read::terrain::TerrainOptions;
 use crate::read::{ReadError, Source};
 use crate::report::TerrainFigures;
+use crate::surface::Watch as _;
 use crate::terrain;
 use std::path::PathBuf;
 
@@ -39,6 +40,7 @@ pub(super) fn build(
             }
             other => other,
         })?;
+    watch.holds(room::of_ground(&terrain));
     terrain::check_overlap(&terrain, &ground_source.label, line, &source.label)?;
     for wishes in &job.wishes {
         check_steepness(line, source, wishes.slope)?;
@@ -53,6 +55,7 @@ pub(super) fn build(
         exactly: false,
     };
     let (terrain, area) = (terrain_figures(site.terrain()), site.area());
+    room::for_works(job, site.terrain(), &ground_source.label, &watch.memory())?;
     let built = site.build(&designs, &options, watch).map_err(|cause| Error::Ground {
         label: source.label.clone(),
         ground: ground_source.label.clone(),

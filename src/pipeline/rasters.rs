@@ -1,8 +1,8 @@
 //! Meshes as rasters.
 
-use super::MOST_NODES;
+use super::{Error, MOST_NODES, room};
 use crate::mesh::raster;
-use crate::model::{Defect, Defects, LengthUnit, Tin};
+use crate::model::{Defect, Defects, LengthUnit, Memory, Tin};
 use crate::read::{CoordinateKind, Source};
 use crate::write::{Anchor, GridLayout, RasterFormat, Reference, Target};
 
@@ -23,8 +23,14 @@ pub(super) type Raster = (GridLayout, Vec<f64>);
 /// Samples a mesh at the centres of cells; their edges are whole multiples of their side.
 ///
 /// # Errors
-/// [`Defects`] if it has more than [`MOST_NODES`] nodes, or none that the mesh lies under.
-pub(super) fn sample(tin: &Tin, cell: f64, label: &str) -> Result<Raster, Defects> {
+/// If it has more than [`MOST_NODES`] nodes, or none that the mesh lies under, or takes too much memory.
+pub(super) fn sample(
+    tin: &Tin,
+    cell: f64,
+    wanted: &[(Target, RasterFormat)],
+    label: &str,
+    memory: &Memory,
+) -> Result<Raster, Error> {
     let refuse = |code: &'static str, what: &str, figures: String, help: &str| {
         let mut defects = Defects::default();
         defects.push(code, || Defect {
@@ -34,7 +40,7 @@ pub(super) fn sample(tin: &Tin, cell: f64, label: &str) -> Result<Raster, Defect
             figures: Some(figures),
             help: help.to_owned(),
         });
-        Err(defects)
+        Err(defects.into())
     };
     let grid = match raster::cover(tin, cell, MOST_NODES) {
         Ok(grid) => grid,
@@ -43,6 +49,10 @@ pub(super) fn sample(tin: &Tin, cell: f64, label: &str) -> Result<Raster, Defect
             return refuse("too-many-nodes", "the raster would have too many nodes", figures, "give a larger `--cell`");
         }
     };
+    if let Some(grid) = &grid {
+        let formats: Vec<RasterFormat> = wanted.iter().map(|(_, format)| *format).collect();
+        room::for_raster(grid.ncols as u64 * grid.nrows as u64, &formats, label, memory)?;
+    }
     let values = grid.as_ref().map_or_else(Vec::new, |grid| raster::heights(tin, grid));
     let Some(grid) = grid.filter(|_| values.iter().any(|value| !value.is_nan())) else {
         let figures = format!("no centre of a cell of {cell} lies on the surface");

@@ -1,10 +1,11 @@
 //! Exact heights of the sheet of the given line, at points or on a grid.
 
 use super::watch::{Observer, Stopwatch, WRITING};
-use super::{Error, Given, LineInput, check_steepness, rasters, read_line};
+use super::{Error, Given, LineInput, check_steepness, rasters, read_line, room};
 use crate::model::{Defect, Defects, Line, Sheet, Slope};
 use crate::read::{self, RawPoints, ReadError, ReadOptions};
 use crate::sheet::{Grid, Heights};
+use crate::surface::Watch as _;
 use crate::validate::INPUT_LIMIT;
 use crate::write::{Anchor, GridLayout, Outputs, RasterFormat, Target, write_points};
 use glam::DVec2;
@@ -91,7 +92,9 @@ pub fn sample(job: &SampleJob, observer: &dyn Observer) -> Result<Sampled, Error
     check_steepness(&line, &source, job.slope)?;
     let heights = match &job.at {
         Where::Points { path, options } => {
-            let points = read::read_points(path, options).map_err(for_points)?;
+            let options = ReadOptions { memory: watch.memory(), ..options.clone() };
+            let points = read::read_points(path, &options).map_err(for_points)?;
+            room::for_points(points.points.len(), points.source.bytes, &points.source.label, &watch.memory())?;
             points.notes.iter().for_each(|note| watch.note(note));
             check_points(&points)?;
             let points: Vec<DVec2> = points.points.iter().map(|p| DVec2::new(p.x, p.y)).collect();
@@ -106,6 +109,7 @@ pub fn sample(job: &SampleJob, observer: &dyn Observer) -> Result<Sampled, Error
         }
         Where::Raster(wanted, format) => {
             let grid = lattice(&line, wanted, &source.label)?;
+            room::for_raster(grid.ncols as u64 * grid.nrows as u64, &[*format], &source.label, &watch.memory())?;
             watch.stage_of("index");
             let sheet = Heights::new(&line, job.slope, job.sheet);
             watch.stage_of("heights");

@@ -1,7 +1,7 @@
 //! Cut and fill between two surfaces that are given.
 
 use super::watch::{CHECKING, Named, Observer, Stopwatch, WRITING};
-use super::{Error, figures, read_ground, units};
+use super::{Error, figures, read_ground, room, units};
 use crate::kernel::sum::Sum;
 use crate::mesh::inside::inside;
 use crate::model::{Chain, Defect, Defects, LengthUnit, Note, Role, Terrain};
@@ -10,6 +10,7 @@ use crate::read::terrain::TerrainOptions;
 use crate::read::{self, ColumnOrder, Pick, ReadError, ReadOptions, Source};
 use crate::report::between::{BetweenDepths, BetweenReference, BetweenReport, BetweenTiming, BetweenVolumes, MeshFigures};
 use crate::report::{Balance, Detail, Input, METHOD, METHOD_TEXT, ReportFormat, SCHEMA, SIGN_RULE, Tool, Warning};
+use crate::surface::Watch as _;
 use crate::validate;
 use crate::write::{Outputs, Target};
 use glam::DVec2;
@@ -134,6 +135,7 @@ pub fn volume(job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Erro
         read_ground(path, &options, unit, &Named { watch: &watch, name: surface.name() })
     };
     let design = design.map(|path| read(path, of_design, job.unit, Surface::Design)).transpose()?;
+    watch.holds(design.as_ref().map_or(0, |(ground, _)| room::of_ground(ground)));
     let declared = job.unit.or(design.as_ref().and_then(|(_, source)| source.unit));
     let existing = read(existing, of_existing, declared, Surface::Existing).map_err(|error| match error {
         // With a design beside it, the existing surface has an option of its own.
@@ -143,6 +145,9 @@ pub fn volume(job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Erro
         other => other,
     })?;
     let unit = declared.or(existing.1.unit).unwrap_or_default();
+    let triangles = existing.0.triangles.len() + design.as_ref().map_or(0, |(ground, _)| ground.triangles.len());
+    watch.holds(room::of_ground(&existing.0) + design.as_ref().map_or(0, |(ground, _)| room::of_ground(ground)));
+    room::for_overlay(triangles, &existing.1.label, &watch.memory())?;
     let area = job.within.as_ref().map(|path| rings(path, unit, &watch)).transpose()?;
 
     watch.stage_of(VOLUMES);
@@ -268,7 +273,7 @@ fn warnings(notes: &[Note], found: &Between) -> Vec<Warning> {
 /// The area inside the rings of a file. Elevations do not matter.
 fn rings(path: &Path, unit: LengthUnit, watch: &Stopwatch<'_>) -> Result<(Terrain, Source), Error> {
     watch.stage_of(CHECKING);
-    let mut raw = read::read_line(path, &ReadOptions { unit: Some(unit), ..ReadOptions::default() })?;
+    let mut raw = read::read_line(path, &ReadOptions { unit: Some(unit), memory: watch.memory(), ..ReadOptions::default() })?;
     if let Some(note) = units::convert_line(&mut raw, unit) {
         watch.note(&note);
     }

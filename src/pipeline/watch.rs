@@ -1,7 +1,8 @@
 //! Whoever looks on while a job runs.
 
-use crate::model::Note;
+use crate::model::{Memory, Note};
 use crate::surface::Watch;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -27,6 +28,8 @@ pub(super) struct Stopwatch<'a> {
     observer: &'a dyn Observer,
     begun: Instant,
     record: Mutex<Record>,
+    /// Bytes held by what was read or built so far.
+    held: AtomicU64,
 }
 
 #[derive(Default)]
@@ -38,11 +41,16 @@ struct Record {
 
 impl<'a> Stopwatch<'a> {
     pub(super) fn new(observer: &'a dyn Observer) -> Self {
-        Self { observer, begun: Instant::now(), record: Mutex::default() }
+        Self { observer, begun: Instant::now(), record: Mutex::default(), held: AtomicU64::default() }
     }
 
     fn record(&self) -> MutexGuard<'_, Record> {
         self.record.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// From here on so many bytes are held.
+    pub(super) fn holds(&self, bytes: u64) {
+        self.held.store(bytes, Ordering::Relaxed);
     }
 
     /// A stage begins.
@@ -85,6 +93,10 @@ impl Watch for Stopwatch<'_> {
     fn cancelled(&self) -> bool {
         self.observer.cancelled()
     }
+
+    fn memory(&self) -> Memory {
+        self.observer.memory().holding(self.held.load(Ordering::Relaxed))
+    }
 }
 
 impl Observer for Stopwatch<'_> {
@@ -107,6 +119,10 @@ impl Watch for Named<'_, '_> {
 
     fn cancelled(&self) -> bool {
         self.watch.cancelled()
+    }
+
+    fn memory(&self) -> Memory {
+        self.watch.memory()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Why an input could not be read.
 
-use crate::model::Defects;
+use crate::model::{Defects, TooLarge};
 use thiserror::Error;
 
 /// Why an input could not be read. `Display` gives the whole message with place and cure, without the leading `error: `.
@@ -41,6 +41,9 @@ pub enum ReadError {
         /// What mends it.
         help: String,
     },
+    /// Reading it would take more memory than there may be.
+    #[error(transparent)]
+    TooLarge(#[from] TooLarge),
     /// Single records are wrong: all of them.
     #[error("{0}")]
     Records(Defects),

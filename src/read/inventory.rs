@@ -2,6 +2,7 @@
 
 use super::terrain::{RawGround, RawTerrain, TerrainOptions, kind, read_mesh, read_terrain};
 use super::{InputFormat, Pick, RawInput, RawLine, RawShape, ReadError, ReadOptions, Source, landxml, read_line};
+use crate::model::Memory;
 use glam::DVec3;
 use std::io::Read as _;
 use std::path::Path;
@@ -100,7 +101,7 @@ pub fn inventory(path: &Path, options: &ReadOptions) -> Result<Inventory, ReadEr
     let ground = as_ground.then(|| {
         let format = Some(format).filter(|_| InputFormat::from_path(path).is_none());
         let (csv_order, pick) = (options.csv_order.clone(), options.pick.clone());
-        read_terrain(path, &TerrainOptions { format, csv_order, pick, unit: options.unit })
+        read_terrain(path, &TerrainOptions { format, csv_order, pick, unit: options.unit, memory: options.memory })
     });
     let raw_line = line.as_ref().and_then(|line| line.as_ref().ok());
     let raw_ground = ground.as_ref().and_then(|ground| ground.as_ref().ok());
@@ -110,9 +111,12 @@ pub fn inventory(path: &Path, options: &ReadOptions) -> Result<Inventory, ReadEr
         InputFormat::LandXml => held.extend(landxml::surfaces(&path.display().to_string(), &std::fs::read(path).map_err(open)?)?),
         _ => held.extend(raw_ground.map(|ground| held_ground(&ground.ground))),
     }
-    if let (InputFormat::Obj | InputFormat::Ply | InputFormat::Dxf, Some(Held::Surface { parts, .. })) = (format, held.last_mut())
-    {
-        *parts = groups(path, format)?;
+    let grouped = matches!(format, InputFormat::Obj | InputFormat::Ply | InputFormat::Dxf);
+    if let Some(Held::Surface { vertices, faces, parts, .. }) = held.last_mut().filter(|_| grouped) {
+        /// Of a vertex and of a triangle: the mesh that was read is held.
+        const HELD: [usize; 2] = [24, 12];
+        let bytes = HELD[0] * *vertices + HELD[1] * *faces;
+        *parts = groups(path, format, &options.memory.holding(bytes as u64))?;
     }
     let mut bounds = None;
     raw_line.into_iter().for_each(|line| around_line(line, &mut bounds));
@@ -145,8 +149,8 @@ fn by_content(path: &Path) -> Result<InputFormat, ReadError> {
 }
 
 /// Groups of a mesh in the order of their first faces.
-fn groups(path: &Path, format: InputFormat) -> Result<Vec<(String, usize)>, ReadError> {
-    let mesh = read_mesh(path, Some(format), &Pick::default())?;
+fn groups(path: &Path, format: InputFormat, memory: &Memory) -> Result<Vec<(String, usize)>, ReadError> {
+    let mesh = read_mesh(path, Some(format), &Pick::default(), memory)?;
     let mut parts: Vec<(String, usize)> = mesh.names.into_iter().map(|name| (name, 0)).collect();
     for group in mesh.groups {
         parts.get_mut(group as usize).into_iter().for_each(|(_, faces)| *faces += 1);

@@ -14,6 +14,7 @@ mod inventory;
 mod landxml;
 mod number;
 mod pick;
+mod room;
 mod sniff;
 pub mod terrain;
 
@@ -23,7 +24,7 @@ pub use error::ReadError;
 pub use inventory::{Held, Inventory, inventory};
 pub use pick::Pick;
 
-use crate::model::{LengthUnit, Note};
+use crate::model::{LengthUnit, Memory, Note};
 use sha2::{Digest, Sha256};
 use std::fmt;
 use std::io::Read;
@@ -215,12 +216,14 @@ pub struct ReadOptions {
     pub chord: f64,
     /// Unit that was asked for: that of files that should declare one and do not.
     pub unit: Option<LengthUnit>,
+    /// How much memory the run may take.
+    pub memory: Memory,
 }
 
 impl Default for ReadOptions {
     /// Nothing known, everything taken, chords within [`DEFAULT_CHORD`].
     fn default() -> Self {
-        Self { format: None, csv_order: None, pick: Pick::default(), chord: DEFAULT_CHORD, unit: None }
+        Self { format: None, csv_order: None, pick: Pick::default(), chord: DEFAULT_CHORD, unit: None, memory: Memory::default() }
     }
 }
 
@@ -252,6 +255,7 @@ pub fn parse_line(label: &str, bytes: &[u8], options: &ReadOptions) -> Result<Ra
     let format = options.format.unwrap_or(InputFormat::GeoJson);
     // A surface, where the file is also ground, is no matter of its lines.
     Pick { surface: None, ..options.pick.clone() }.fits(label, format)?;
+    room::for_content(label, format, bytes, &options.memory)?;
     let mut notes = Vec::new();
     let mut source = source(label, format, bytes);
     let mut lines = match format {
@@ -287,7 +291,8 @@ fn no_line(label: &str, format: InputFormat) -> ReadError {
 /// As [`read_line`]; also for coordinates that are missing or not finite.
 pub fn read_points(path: &Path, options: &ReadOptions) -> Result<RawPoints, ReadError> {
     let with_default = ReadOptions { format: options.format.or(Some(InputFormat::Csv)), ..options.clone() };
-    let (label, _, bytes) = load(path, &with_default)?;
+    let (label, format, bytes) = load(path, &with_default)?;
+    room::for_content(&label, format, &bytes, &options.memory)?;
     parse_points(&label, &bytes, options.csv_order.as_ref())
 }
 
@@ -317,7 +322,7 @@ fn load(path: &Path, options: &ReadOptions) -> Result<(String, InputFormat, Vec<
         let label = path.display().to_string();
         let format = options.format.or_else(|| InputFormat::from_path(path));
         let format = format.ok_or_else(|| ReadError::UnknownFormat { label: label.clone() })?;
-        let bytes = std::fs::read(path).map_err(|cause| ReadError::Open { label: label.clone(), cause })?;
+        let bytes = room::load(&label, path, &options.memory)?;
         Ok((label, format, bytes))
     }
 }

@@ -86,6 +86,10 @@ pub struct Crossed {
 impl Iterator for Crossed {
     type Item = usize;
 
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        (self.last - self.first, Some(self.last - self.first))
+    }
+
     fn next(&mut self) -> Option<usize> {
         if self.first >= self.last {
             return None;
@@ -99,6 +103,8 @@ impl Iterator for Crossed {
         }
     }
 }
+
+impl ExactSizeIterator for Crossed {}
 
 #[cfg(test)]
 mod tests {

@@ -12,4 +12,5 @@ mod noding;
 pub mod polygon;
 pub mod refine;
 pub mod simplify;
+pub mod size;
 pub mod trim;

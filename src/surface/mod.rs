@@ -7,6 +7,7 @@ pub mod curves;
 mod feet;
 mod flats;
 mod formation;
+mod room;
 mod solve;
 mod touching;
 
@@ -21,13 +22,14 @@ use crate::kernel::sum::Sum;
 use crate::mesh::check::HalfEdges;
 use crate::mesh::region::RegionError;
 use crate::mesh::volume;
-use crate::model::{Design, Extent, Line, LineFeature, Note, Part, Sheet as SheetKind, Tin};
+use crate::model::{Design, Extent, Line, LineFeature, Memory, Note, Part, Sheet as SheetKind, Tin, TooLarge};
 use crate::slope::emit::{self, Slopes};
 use crate::slope::facet::Kind;
 use crate::slope::fan::Fans;
 use crate::slope::levels::{self, Levels};
 use crate::slope::network::Network;
 use crate::slope::refine::Cut;
+use crate::slope::size;
 use crate::slope::trim::{self, Sheet};
 use body::Body;
 
@@ -123,6 +125,9 @@ pub enum SurfaceError {
         /// Which figure is out of bounds.
         what: String,
     },
+    /// The mesh would take more memory than it may.
+    #[error(transparent)]
+    TooLarge(#[from] TooLarge),
     /// The caller asked to stop.
     #[error("interrupted")]
     Cancelled,
@@ -136,6 +141,11 @@ pub trait Watch: Sync {
     /// Whether to stop.
     fn cancelled(&self) -> bool {
         false
+    }
+
+    /// How much memory the run may take.
+    fn memory(&self) -> Memory {
+        Memory::default()
     }
 }
 
@@ -273,6 +283,7 @@ fn made(line: &Line, design: &Design, plane: Option<&Plane>, watch: &dyn Watch) 
         if watch.cancelled() { Err(SurfaceError::Cancelled) } else { Ok(()) }
     };
     go_on("line")?;
+    room::for_line(line, &watch.memory())?;
     let network = Network::new(line, design, SIMPLIFY_SHARE * design.tolerance);
     if !network.edges.iter().any(|e| e.wanted[0] || e.wanted[1]) {
         return Err(SurfaceError::NoSide);
@@ -287,6 +298,7 @@ fn made(line: &Line, design: &Design, plane: Option<&Plane>, watch: &dyn Watch) 
     let solved = solve::solve(&sheet, watch)?;
     go_on("mesh")?;
     let cut = Cut { levels: &levels, chord: CHORD_SHARE * design.tolerance, reach: ends.reach };
+    room::for_mesh(line, size::least_triangles(&sheet, &solved.closure, &solved.arcs, &cut), &watch.memory())?;
     let mut slopes = emit::emit(&sheet, &solved.closure, &solved.arcs, &cut);
     for p in slopes.points.iter_mut().filter(|p| (p.z - ends.closure).abs() <= END_TIE) {
         // Undoes [`END_TIE`]: the slope ends where it was asked to. (Ends at a distance lie well above the closure.)
@@ -296,6 +308,7 @@ fn made(line: &Line, design: &Design, plane: Option<&Plane>, watch: &dyn Watch) 
         let p = network.world(sheet.facet(f).foot(0.0));
         return Err(SurfaceError::Unsound { what: format!("a strip at ({:.3}, {:.3}) could not be triangulated", p.x, p.y) });
     }
+    room::for_mesh(line, slopes.triangles.len() as u64, &watch.memory())?;
     let buried = buried::stretches(line, &sheet, &solved.closure);
     let flats = flats::fill(line, design, &network, &mut slopes, &buried.stretches)?;
     go_on("certificate")?;

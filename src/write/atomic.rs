@@ -2,30 +2,71 @@
 
 use super::EncodeError;
 use super::target::{Identity, folder_of, follow_links};
-use std::collections::BTreeSet;
 use std::fs::{File, OpenOptions, Permissions};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
-use tempfile::NamedTempFile;
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
+use std::time::{Duration, Instant};
+use tempfile::TempPath;
 
 pub use super::error::WriteError;
 pub use super::target::Target;
 
-/// Temporary files that are not yet outputs, so that an interrupt can remove them.
-static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+/// Temporary files that are not yet outputs, so that an interrupt can remove them. Nothing is allocated while it is locked: who
+/// runs out of memory must be able to lock it, too.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes the temporary files of all [`Outputs`] still open. For an interrupt handler that ends the process right after:
-/// outputs not yet committed can no longer be.
+/// The list with room for one more.
+fn unfinished_with_room() -> MutexGuard<'static, Vec<PathBuf>> {
+    loop {
+        let list = unfinished();
+        if list.len() < list.capacity() {
+            return list;
+        }
+        let mut larger = Vec::with_capacity(2 * list.len() + 8);
+        drop(list);
+        // Taken before what it held is dropped, and so unlocked first.
+        let mut list = unfinished();
+        if list.len() < larger.capacity() {
+            larger.append(&mut list);
+            std::mem::swap(&mut *list, &mut larger);
+        }
+        drop(list);
+    }
+}
+
+/// Removes the temporary files of all [`Outputs`] still open, for those who end the process right after: no output can be opened
+/// or committed any more. Waits until a commit that has begun is done, so that the outputs of a job are all there or none.
 pub fn discard_unfinished() {
-    for path in std::mem::take(&mut *unfinished()) {
+    discard(unfinished());
+}
+
+/// The same where nothing can be waited for: gives up when the list stays locked for `patience`.
+pub fn discard_unfinished_within(patience: Duration) {
+    /// Between two attempts.
+    const PAUSE: Duration = Duration::from_millis(5);
+    let begun = Instant::now();
+    loop {
+        match UNFINISHED.try_lock() {
+            Ok(list) => return discard(list),
+            Err(TryLockError::Poisoned(list)) => return discard(list.into_inner()),
+            Err(TryLockError::WouldBlock) if begun.elapsed() < patience => std::thread::sleep(PAUSE),
+            Err(TryLockError::WouldBlock) => return,
+        }
+    }
+}
+
+fn discard(list: MutexGuard<'static, Vec<PathBuf>>) {
+    for path in list.iter() {
         // Nothing can be done about a file that will not go, and nobody is left to be told.
         let _ = std::fs::remove_file(path);
     }
+    // Locked for good: no other job opens or commits an output before the process ends.
+    std::mem::forget(list);
 }
 
 /// How an output arrived.
@@ -59,49 +100,78 @@ struct Slot {
 enum Sink {
     Stdout,
     Stream(File),
-    File { temporary: Pending, path: PathBuf, permissions: Option<Permissions> },
+    File { temporary: Pending<File>, path: PathBuf, permissions: Option<Permissions> },
 }
 
-/// A temporary file, listed in [`UNFINISHED`] for as long as it exists.
+/// A file under a temporary name, listed in [`UNFINISHED`] for as long as it has that name.
 #[derive(Debug)]
-struct Pending(Option<NamedTempFile>);
+struct Pending<F> {
+    file: F,
+    /// `None` once it has its final name.
+    name: Option<TempPath>,
+}
 
-impl Pending {
+impl Pending<File> {
+    /// A new file in the folder of `path`.
     fn beside(path: &Path) -> io::Result<Self> {
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".slopegen-").suffix(".part");
+        let mut options = OpenOptions::new();
+        options.read(true).write(true).create_new(true);
         #[cfg(unix)]
         {
-            use std::os::unix::fs::PermissionsExt;
+            use std::os::unix::fs::OpenOptionsExt;
             // What a plain create asks for; the system takes away what the umask forbids.
-            builder.permissions(Permissions::from_mode(0o666));
+            options.mode(0o666);
         }
-        let mut list = unfinished();
-        let file = builder.tempfile_in(folder_of(path))?;
-        list.insert(file.path().to_path_buf());
-        Ok(Self(Some(file)))
-    }
-
-    fn file(&mut self) -> io::Result<&mut File> {
-        self.0.as_mut().map(NamedTempFile::as_file_mut).ok_or_else(|| io::Error::from(ErrorKind::NotFound))
-    }
-
-    /// Gives the file its final name.
-    fn persist(mut self, path: &Path) -> io::Result<()> {
-        let Some(file) = self.0.take() else { return Err(ErrorKind::NotFound.into()) };
-        let mut list = unfinished();
-        list.remove(file.path());
-        // On failure the error holds the file, and dropping it removes it.
-        file.persist(path).map(drop).map_err(|e| e.error)
+        Self::made(path, |name| options.open(name))
     }
 }
 
-impl Drop for Pending {
+impl Pending<()> {
+    /// Another name for the file at `path`.
+    fn link(path: &Path) -> io::Result<Self> {
+        Self::made(path, |name| std::fs::hard_link(path, name))
+    }
+}
+
+impl<F> Pending<F> {
+    fn made(path: &Path, make: impl Fn(&Path) -> io::Result<F>) -> io::Result<Self> {
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".slopegen-").suffix(".part");
+        let listed = |name: &Path| {
+            let owned = name.to_path_buf();
+            // Made and listed under one lock: an interrupt comes before both or after both.
+            let mut list = unfinished_with_room();
+            let file = make(name)?;
+            list.push(owned);
+            Ok(file)
+        };
+        let (file, name) = builder.make_in(folder_of(path), listed)?.into_parts();
+        Ok(Self { file, name: Some(name) })
+    }
+
+    /// Gives the file its final name. `list`: the locked list.
+    fn persist(&mut self, path: &Path, list: &mut Vec<PathBuf>) -> io::Result<()> {
+        let Some(name) = self.name.take() else { return Err(ErrorKind::NotFound.into()) };
+        let place = list.iter().position(|listed| *listed == *name);
+        match name.persist(path) {
+            Ok(()) => {
+                place.map(|place| list.swap_remove(place));
+                Ok(())
+            }
+            Err(failed) => {
+                self.name = Some(failed.path);
+                Err(failed.error)
+            }
+        }
+    }
+}
+
+impl<F> Drop for Pending<F> {
     fn drop(&mut self) {
-        if let Some(file) = self.0.take() {
-            let path = file.path().to_path_buf();
-            drop(file);
-            unfinished().remove(&path);
+        if let Some(name) = self.name.take() {
+            let path = name.to_path_buf();
+            drop(name);
+            unfinished().retain(|listed| *listed != path);
         }
     }
 }
@@ -175,23 +245,72 @@ impl Outputs {
         }
     }
 
-    /// Gives all files their final names, after everything written has reached the disk. An output never written, or not to
-    /// the end, does not appear.
+    /// Gives all files their final names, after everything written has reached the disk: all of them, or none. An output never
+    /// written, or not to the end, does not appear. An interrupt waits until all have their names.
     ///
     /// # Errors
-    /// [`WriteError::Write`] if the disk refuses; no file appears then. [`WriteError::Open`] if a file cannot get its name;
-    /// those before it have theirs, those after it do not appear.
+    /// [`WriteError::Write`] if the disk refuses, [`WriteError::Open`] if a file cannot get its name. No file appears then, and
+    /// those that were to be replaced are what they were; only where the file system knows no links, files replaced before the
+    /// one that failed stay replaced.
     pub fn commit(mut self) -> Result<(), WriteError> {
         self.slots.retain(|slot| slot.written);
         for Slot { target, sink, .. } in &mut self.slots {
             sink.settle().map_err(|cause| WriteError::Write { target: target.clone(), cause: cause.into() })?;
         }
-        for Slot { target, sink, .. } in self.slots {
-            if let Sink::File { temporary, path, .. } = sink {
-                temporary.persist(&path).map_err(|cause| WriteError::Open { target, cause })?;
-            }
+        let mut files: Vec<Naming<'_>> = self.slots.iter_mut().filter_map(Naming::of).collect();
+        // The last one either gets its name or fails: nothing would ever be taken back for it.
+        let all_but_last = files.len().saturating_sub(1);
+        for file in &mut files[..all_but_last] {
+            file.keep_old();
         }
-        Ok(())
+        let mut list = unfinished();
+        let failed = files.iter_mut().position(|file| {
+            file.refused = file.temporary.persist(file.path, &mut list).err();
+            file.refused.is_some()
+        });
+        let Some(failed) = failed else { return Ok(()) };
+        for file in &mut files[..failed] {
+            file.take_back(&mut list);
+        }
+        drop(list);
+        let cause = files[failed].refused.take().unwrap_or_else(|| ErrorKind::Other.into());
+        Err(WriteError::Open { target: files[failed].target.clone(), cause })
+    }
+}
+
+/// A file about to get its final name.
+struct Naming<'a> {
+    target: &'a Target,
+    temporary: &'a mut Pending<File>,
+    path: &'a Path,
+    /// Whether it takes the place of another.
+    replaces: bool,
+    /// That other one, until all files have their names.
+    old: Option<Pending<()>>,
+    /// Why it did not get its name.
+    refused: Option<io::Error>,
+}
+
+impl<'a> Naming<'a> {
+    fn of(slot: &'a mut Slot) -> Option<Self> {
+        let Sink::File { temporary, path, .. } = &mut slot.sink else { return None };
+        Some(Self { target: &slot.target, temporary, path, replaces: false, old: None, refused: None })
+    }
+
+    /// Keeps what is there under another name.
+    fn keep_old(&mut self) {
+        self.replaces = self.path.symlink_metadata().is_ok();
+        self.old = if self.replaces { Pending::link(self.path).ok() } else { None };
+    }
+
+    /// Makes undone that the file got its name.
+    fn take_back(&mut self, list: &mut Vec<PathBuf>) {
+        // What cannot be taken back stays: the error that led here is told in any case.
+        let _ = match &mut self.old {
+            Some(old) => old.persist(self.path, list),
+            None if self.replaces => Ok(()),
+            None => std::fs::remove_file(self.path),
+        };
     }
 }
 
@@ -222,14 +341,14 @@ impl Sink {
         match self {
             Self::Stdout => fill_buffered(io::stdout().lock(), encode),
             Self::Stream(file) => fill_buffered(file, encode),
-            Self::File { temporary, .. } => fill_buffered(temporary.file()?, encode),
+            Self::File { temporary, .. } => fill_buffered(&temporary.file, encode),
         }
     }
 
     /// Brings a file's content to the disk and gives it its permissions.
     fn settle(&mut self) -> io::Result<()> {
         let Self::File { temporary, permissions, .. } = self else { return Ok(()) };
-        let file = temporary.file()?;
+        let file = &temporary.file;
         match file.sync_all() {
             // Some network and user-space file systems know no sync.
             Err(e) if matches!(e.kind(), ErrorKind::InvalidInput | ErrorKind::Unsupported) => {}
@@ -245,9 +364,89 @@ impl Sink {
 fn fill_buffered(sink: impl Write, encode: impl FnOnce(&mut dyn Write) -> Result<(), EncodeError>) -> Result<(), EncodeError> {
     /// Bytes gathered from small writes.
     const BUFFER: usize = 1 << 16;
-    let mut buffered = BufWriter::with_capacity(BUFFER, sink);
+    let mut buffered = BufWriter::with_capacity(BUFFER, Counting { sink, written: 0 });
     let result = encode(&mut buffered).and_then(|()| Ok(buffered.flush()?));
     // Dropping it would try to write the rest once more after a failure.
-    let _ = buffered.into_parts();
-    result
+    let (counting, _) = buffered.into_parts();
+    result.map_err(|cause| match cause {
+        EncodeError::Io(cause) if counting.written > 0 => {
+            io::Error::new(cause.kind(), format!("{cause}, after {} bytes", counting.written)).into()
+        }
+        other => other,
+    })
+}
+
+/// Counts the bytes a sink has taken.
+struct Counting<W> {
+    sink: W,
+    written: u64,
+}
+
+impl<W: Write> Write for Counting<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let taken = self.sink.write(bytes)?;
+        self.written += taken as u64;
+        Ok(taken)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.sink.flush()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let mut names: Vec<String> =
+            std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    /// Opens and writes files of these names, each with its name as content.
+    fn written(folder: &Path, files: &[&str]) -> Outputs {
+        let targets: Vec<Target> = files.iter().map(|name| Target::File(folder.join(name))).collect();
+        let mut outputs = Outputs::open::<PathBuf>(&targets, &[]).unwrap();
+        for (index, name) in files.iter().enumerate() {
+            outputs.write(index, |out| Ok(out.write_all(name.as_bytes())?)).unwrap();
+        }
+        outputs
+    }
+
+    #[test]
+    fn all_get_their_names_or_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        std::fs::write(path("old"), "as it was").unwrap();
+        let outputs = written(folder.path(), &["new", "old", "taken", "last"]);
+        // Meanwhile somebody makes a folder where the third is to be.
+        std::fs::create_dir(path("taken")).unwrap();
+        let error = outputs.commit().unwrap_err();
+        assert!(matches!(&error, WriteError::Open { target: Target::File(path), .. } if path.ends_with("taken")), "{error}");
+        assert_eq!(names(folder.path()), ["old", "taken"]);
+        assert_eq!(std::fs::read_to_string(path("old")).unwrap(), "as it was");
+
+        std::fs::remove_dir(path("taken")).unwrap();
+        written(folder.path(), &["new", "old", "taken", "last"]).commit().unwrap();
+        assert_eq!(names(folder.path()), ["last", "new", "old", "taken"]);
+        assert_eq!(std::fs::read_to_string(path("old")).unwrap(), "old");
+    }
+
+    #[test]
+    fn many_are_open_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let files: Vec<String> = (0..100).map(|i| format!("{i:02}")).collect();
+        let files: Vec<&str> = files.iter().map(String::as_str).collect();
+        let outputs = written(folder.path(), &files);
+        assert!(names(folder.path()).iter().all(|name| name.starts_with(".slopegen-") && name.ends_with(".part")));
+        let listed = |folder: &Path| unfinished().iter().filter(|path| path.starts_with(folder)).count();
+        assert_eq!(listed(folder.path()), 100);
+        outputs.commit().unwrap();
+        assert_eq!(names(folder.path()), files);
+        assert_eq!(listed(folder.path()), 0);
+        drop(written(folder.path(), &["more"]));
+        assert_eq!((listed(folder.path()), names(folder.path()).len()), (0, 100));
+    }
 }

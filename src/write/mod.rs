@@ -24,7 +24,7 @@ pub mod stakes;
 pub mod stl;
 mod target;
 
-pub use atomic::{Delivery, Outputs, Target, discard_unfinished};
+pub use atomic::{Delivery, Outputs, Target, discard_unfinished, discard_unfinished_within};
 pub use clash::{Clash, Footprint, first_clash};
 pub use dxf::{write_dxf, write_dxf_lines};
 pub use error::{EncodeError, WriteError};

@@ -224,7 +224,7 @@ fn other_files_under_this_name() {
     ] {
         let path = folder.path().join(name);
         std::fs::write(&path, bytes).unwrap();
-        let message = read_mesh(&path, None, &Default::default()).unwrap_err().to_string();
+        let message = read_mesh(&path, None, &Default::default(), &Default::default()).unwrap_err().to_string();
         assert!(message.contains(words), "{name}: {message}");
     }
 }

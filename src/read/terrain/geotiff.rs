@@ -6,7 +6,7 @@
 #[cfg(not(feature = "geotiff"))]
 use super::refuse;
 use super::{RawGround, Said};
-use crate::model::Note;
+use crate::model::{Memory, Note};
 use crate::read::ReadError;
 
 #[cfg(feature = "geotiff")]
@@ -24,13 +24,13 @@ mod unpack;
 
 /// Reads ground.
 #[cfg(feature = "geotiff")]
-pub(super) fn read(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
-    grid::read(label, bytes, notes)
+pub(super) fn read(label: &str, bytes: &[u8], memory: &Memory, notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
+    grid::read(label, bytes, memory, notes)
 }
 
 /// Refuses: the reader was left out.
 #[cfg(not(feature = "geotiff"))]
-pub(super) fn read(label: &str, _: &[u8], _: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
+pub(super) fn read(label: &str, _: &[u8], _: &Memory, _: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
     let help = format!("use a program with it, or convert the file, e.g. `gdal_translate -of AAIGrid {label} ground.asc`");
     Err(refuse("this program was built without GeoTIFF", label, "format: geotiff", &help))
 }

@@ -1,9 +1,9 @@
 //! Meshes to be looked at as they are, with whatever is wrong with them.
 
 use super::{InputFormat, Pick, RawFaces, ReadError, Said, Source, kind, obj, ply, refuse};
-use crate::model::{LengthUnit, Note, Part};
-use crate::read::dxf;
+use crate::model::{LengthUnit, Memory, Note, Part};
 use crate::read::landxml::{self, Known};
+use crate::read::{dxf, room};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use std::io::Read as _;
@@ -27,25 +27,27 @@ pub struct RawMesh {
     pub notes: Vec<Note>,
 }
 
-/// Reads a mesh from an OBJ, PLY, LandXML or DXF file; `-` is standard input. `pick` says which surface or layers are meant of several.
+/// Reads a mesh from an OBJ, PLY, LandXML or DXF file; `-` is standard input. `pick` says which surface or layers are
+/// meant of several, `memory` how much the run may take.
 ///
 /// # Errors
 /// [`ReadError`] when the file cannot be opened, is no mesh, or is damaged: cut off, text where numbers should be, corners that
 /// are not there. What is wrong with the mesh as such is no matter here.
-pub fn read_mesh(path: &Path, format: Option<InputFormat>, pick: &Pick) -> Result<RawMesh, ReadError> {
+pub fn read_mesh(path: &Path, format: Option<InputFormat>, pick: &Pick, memory: &Memory) -> Result<RawMesh, ReadError> {
     let from_stdin = path == Path::new("-");
     let label = if from_stdin { "<stdin>".to_owned() } else { path.display().to_string() };
-    let mut bytes = Vec::new();
-    let read = if from_stdin {
-        std::io::stdin().lock().read_to_end(&mut bytes).map(drop)
+    let bytes = if from_stdin {
+        let mut bytes = Vec::new();
+        let read = std::io::stdin().lock().read_to_end(&mut bytes);
+        read.map(|_| bytes).map_err(|cause| ReadError::Open { label: label.clone(), cause })?
     } else {
-        std::fs::read(path).map(|read| bytes = read)
+        room::load(&label, path, memory)?
     };
-    read.map_err(|cause| ReadError::Open { label: label.clone(), cause })?;
     let format = match format.or_else(|| InputFormat::from_path(path)) {
         Some(format) => format,
         None => kind::only_by_content(&label, &bytes)?,
     };
+    room::for_content(&label, format, &bytes, memory)?;
     parse_mesh(&label, &bytes, format, pick)
 }
 

@@ -14,8 +14,9 @@ mod points;
 
 pub use mesh::{RawMesh, read_mesh};
 
+use super::room;
 use super::{ColumnOrder, InputFormat, Pick, ReadError, Source};
-use crate::model::{LengthUnit, Note};
+use crate::model::{LengthUnit, Memory, Note};
 use glam::{DVec2, DVec3};
 use std::path::Path;
 
@@ -30,6 +31,8 @@ pub struct TerrainOptions {
     pub pick: Pick,
     /// Unit of files that should declare one and do not.
     pub unit: Option<LengthUnit>,
+    /// How much memory the run may take.
+    pub memory: Memory,
 }
 
 impl TerrainOptions {
@@ -121,7 +124,7 @@ pub fn read_terrain(path: &Path, options: &TerrainOptions) -> Result<RawTerrain,
         let help = "write the ground to a file first; only the line can come from standard input";
         return Err(refuse("the ground cannot be read from standard input", "<stdin>", "it is given as `-`", help));
     }
-    let bytes = std::fs::read(path).map_err(|cause| ReadError::Open { label: label.clone(), cause })?;
+    let bytes = room::load(&label, path, &options.memory)?;
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
     let format = match options.format.or_else(|| InputFormat::from_path(path)) {
         Some(format) => format,
@@ -149,6 +152,7 @@ fn parse(label: &str, bytes: &[u8], options: &TerrainOptions, by_name: Option<&C
     kind::check(label, bytes, format)?;
     let pick = &options.pick;
     pick.fits(label, format)?;
+    room::for_content(label, format, bytes, &options.memory)?;
     let known = super::landxml::Known { pick, order: options.csv_order.as_ref(), unit: options.unit };
     // The checksum takes as long as the fast formats themselves.
     let (mut source, read) = rayon::join(
@@ -161,7 +165,7 @@ fn parse(label: &str, bytes: &[u8], options: &TerrainOptions, by_name: Option<&C
                 InputFormat::Asc => asc::read(label, bytes, &mut notes),
                 InputFormat::LandXml => super::landxml::ground(label, bytes, known, &mut notes),
                 InputFormat::Dxf => super::dxf::ground(label, bytes, pick, &mut notes),
-                InputFormat::GeoTiff => geotiff::read(label, bytes, &mut notes),
+                InputFormat::GeoTiff => geotiff::read(label, bytes, &options.memory, &mut notes),
                 InputFormat::Las => las::read(label, bytes, pick, &mut notes),
                 InputFormat::Csv | InputFormat::GeoJson | InputFormat::Gpx => {
                     points::read(label, bytes, options.csv_order.as_ref(), by_name, &mut notes)

@@ -6,8 +6,8 @@ use super::directory::{Directory, Tiff};
 use super::image::Image;
 use super::metadata::{self, Metadata};
 use super::place::Place;
-use crate::model::Note;
-use crate::read::ReadError;
+use crate::model::{Memory, Note};
+use crate::read::{ReadError, room};
 
 /// Most images of a file that are looked at.
 const MOST_IMAGES: usize = 256;
@@ -26,7 +26,7 @@ struct Images<'a> {
 }
 
 /// Reads ground.
-pub(super) fn read(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
+pub(super) fn read(label: &str, bytes: &[u8], memory: &Memory, notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
     let (tiff, first) = Tiff::open(label, bytes)?;
     let images = images(&tiff, first)?;
     let main = &images.main;
@@ -57,6 +57,7 @@ pub(super) fn read(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<(
         keys.heights = metadata.unit;
     }
     let (said, factor) = keys.settle(notes);
+    room::for_cells(label, bytes.len(), image.cells(), memory)?;
     let mut heights = image.read()?;
     let no_data = main.text(42113)?.map(metadata::no_data);
     let marker = match no_data {

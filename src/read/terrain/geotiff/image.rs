@@ -41,6 +41,11 @@ pub(super) struct Image<'a> {
 }
 
 impl<'a> Image<'a> {
+    /// Number of its cells.
+    pub(super) fn cells(&self) -> u64 {
+        self.width as u64 * self.height as u64
+    }
+
     /// Reads the layout and refuses what cannot be read, before anything is reserved.
     pub(super) fn new(tiff: Tiff<'a>, directory: &Directory<'a>) -> Result<Self, ReadError> {
         let label = tiff.label;

@@ -117,7 +117,7 @@ pub(crate) fn line(choices: &mut Choices<'_>, k: f64, width: Option<f64>) -> Res
         let formation = Formation { width, crossfall, chord: 0.01 / 3.0 };
         line = formation::widen(&line, "a", &formation).map_err(|e| e.to_string())?.line;
     }
-    Ok(formation::place(line, "a", 0.01).map_err(|e| e.to_string())?.line)
+    formation::place(line, "a", 0.01).map_err(|e| e.to_string())
 }
 
 /// The line as GeoJSON with all its digits, to show what was found with the program itself.

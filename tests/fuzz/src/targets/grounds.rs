@@ -28,7 +28,7 @@ pub(crate) fn read(bytes: &[u8], format: InputFormat) {
         [None, Some(LengthUnit::Metre), Some(LengthUnit::Foot), Some(LengthUnit::UsSurveyFoot)][usize::from(flags >> 2 & 3)];
     // Without a format, it is told from the content.
     let format = Some(format).filter(|_| flags & 16 == 0);
-    match parse_terrain("a", choices.rest(), &TerrainOptions { format, csv_order, pick, unit }) {
+    match parse_terrain("a", choices.rest(), &TerrainOptions { format, csv_order, pick, unit, ..TerrainOptions::default() }) {
         Err(error) => telling(&error.to_string()),
         Ok(raw) => look(raw, choices.rest()),
     }

@@ -45,12 +45,3 @@ pub(crate) const TARGETS: &[(&str, fn(&[u8]))] = &[
     ("ground", ground::run),
     ("overlay", overlay::run),
 ];
-
-/// Runs a target.
-///
-/// # Panics
-/// If there is none of that name, or if it finds something.
-pub(crate) fn run(name: &str, bytes: &[u8]) {
-    let target = TARGETS.iter().find(|(known, _)| *known == name);
-    target.unwrap_or_else(|| panic!("there is no target `{name}`")).1(bytes);
-}
