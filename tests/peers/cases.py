@@ -143,7 +143,7 @@ def whole(count, n, cells, **more):
     parameters = {"count": count, "n": n, "reference": paths.inputs(f"road_{n}_{count}.reference.json")}
     all_peers = []
     for cell in cells:
-        label = f"numba: closed form and raster of the ground, cells of {cell} m"
+        label = f"numba, closed form and raster of the ground, cells of {cell} m"
         with_cell = parameters | {"ply": paths.inputs(ground), "cell": cell}
         all_peers.append(Peer(label, "numba", "volumes:whole_job", with_cell, "fill only; no mesh, no line", cell == 2))
     return Case(

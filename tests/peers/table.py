@@ -32,7 +32,10 @@ def _error(row, key):
 
 
 def _tool(row):
-    return f"**{row['tool']}**" if row["tool"] == "slopegen" else f"{row['tool']} {row['version']}".strip()
+    if row["tool"] == "slopegen":
+        return "**slopegen**"
+    name, comma, rest = row["tool"].partition(",")
+    return f"{name} {row['version']}".strip() + comma + rest
 
 
 def _memory(row):
