@@ -21,7 +21,7 @@ pub use memory::out_of_memory;
 
 use crate::model::Memory;
 use crate::pipeline::{Error, NotPassed};
-use crate::write::{Target, WriteError};
+use crate::write::{MeshFormat, Target, WriteError};
 use anyhow::Context as _;
 use args::{Command, Running};
 use checks::Checks;
@@ -109,10 +109,14 @@ fn build(wanted: &args::BuildArgs) -> anyhow::Result<Code> {
     let built = crate::pipeline::build(&job, &console)?;
     console.finish();
     show(screen, |out| crate::report::write_text(out, &built.report))?;
-    let size = format!("{} vertices, {} triangles", built.report.surface.vertices, built.report.surface.triangles);
+    let size = |vertices: usize, triangles: usize| format!("{vertices} vertices, {triangles} triangles");
+    let design = size(built.report.surface.vertices, built.report.surface.triangles);
+    let finished = built.report.finished.map_or_else(String::new, |finished| size(finished.vertices, finished.triangles));
     for target in &built.written {
-        let is_mesh = job.meshes.iter().any(|(mesh, _)| mesh == target);
-        console.wrote(target, if is_mesh { &size } else { "" });
+        let is_among = |meshes: &[(Target, MeshFormat)]| meshes.iter().any(|(mesh, _)| mesh == target);
+        let sizes = [(is_among(&job.meshes), design.as_str()), (is_among(&job.finished), finished.as_str())];
+        let size = sizes.iter().find(|(is_it, _)| *is_it).map_or("", |(_, size)| size);
+        console.wrote(target, size);
     }
     Ok(Code::Done)
 }

@@ -34,7 +34,8 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    /// Joins the surfaces of one line, given in one frame. With `whole`, triangles of all parts are neighbours. `None` if they do not have the points of the line in common.
+    /// Joins the surfaces of one line, given in one frame. With `whole`, triangles of all parts are neighbours.
+    /// `None` if they do not have the points of the line in common.
     pub(crate) fn new(surfaces: &[&Surface], whole: bool) -> Option<Self> {
         let frame = surfaces.first()?.tin.frame;
         let mut levels: Vec<f64> = surfaces.iter().flat_map(|s| s.levels.iter().copied()).collect();

@@ -16,18 +16,21 @@ impl PlanBox {
     pub const EMPTY: Self = Self { lo: DVec2::INFINITY, hi: DVec2::NEG_INFINITY };
 
     /// The smallest box around points; [`Self::EMPTY`] for none.
+    #[inline]
     pub fn of(points: impl IntoIterator<Item = DVec2>) -> Self {
         points.into_iter().fold(Self::EMPTY, Self::with)
     }
 
     /// The same with a point in it.
     #[must_use]
+    #[inline]
     pub fn with(self, p: DVec2) -> Self {
         Self { lo: self.lo.min(p), hi: self.hi.max(p) }
     }
 
     /// The smallest box around both.
     #[must_use]
+    #[inline]
     pub fn join(self, other: Self) -> Self {
         Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
     }

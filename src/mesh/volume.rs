@@ -54,6 +54,36 @@ pub fn positive_share(h: [f64; 3]) -> f64 {
     }
 }
 
+/// Areas of triangles in plan, and as they lie.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MeshAreas {
+    plan: Sum,
+    surface: Sum,
+}
+
+impl MeshAreas {
+    /// Of some triangles, facing either way.
+    pub fn of(triangles: impl IntoIterator<Item = [DVec3; 3]>) -> Self {
+        let mut areas = Self::default();
+        for [a, b, c] in triangles {
+            let normal = (b - a).cross(c - a);
+            areas.plan.add(0.5 * normal.z.abs());
+            areas.surface.add(0.5 * normal.length());
+        }
+        areas
+    }
+
+    /// Area in plan.
+    pub fn plan(&self) -> f64 {
+        self.plan.value()
+    }
+
+    /// Area as they lie.
+    pub fn surface(&self) -> f64 {
+        self.surface.value()
+    }
+}
+
 /// Plan area of a triangle, positive counter-clockwise.
 pub fn plan_area([a, b, c]: [DVec3; 3]) -> f64 {
     0.5 * (b - a).truncate().perp_dot((c - a).truncate())

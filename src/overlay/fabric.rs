@@ -1,8 +1,9 @@
 //! A mesh made ready to be walked about in: ordered, welded, with the neighbour across every edge.
 
-use super::boxes::{Box2, Boxes};
+use super::boxes::{Boxes, beyond};
 use super::hilbert;
 use crate::kernel::frame::Frame;
+use crate::kernel::plan_box::PlanBox;
 use crate::kernel::sum::Sum;
 use crate::model::Terrain;
 use glam::DVec3;
@@ -10,7 +11,7 @@ use glam::DVec3;
 /// No neighbour, no number.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Marks a vertex that a triangle uses, beside the bits of [`Box2::beyond`].
+/// Marks a vertex that a triangle uses, beside the bits of [`beyond`].
 const USED: u8 = 1 << 4;
 
 /// Triangles in an order in which those that follow each other lie near each other.
@@ -28,11 +29,11 @@ pub(super) struct Fabric {
 impl Fabric {
     /// The triangles of `mesh` that may meet `keep`, in `frame`. Vertices with the same coordinates become one; triangles
     /// without plan area are left out, clockwise ones turned.
-    pub(super) fn new(mesh: &Terrain, frame: Frame, keep: &Box2) -> Self {
+    pub(super) fn new(mesh: &Terrain, frame: Frame, keep: &PlanBox) -> Self {
         let same = mesh.frame == frame;
         let place = |v: &DVec3| if same { *v } else { frame.to_local(mesh.frame.to_world(*v)) };
         let points: Vec<DVec3> = mesh.vertices.iter().map(place).collect();
-        let mut sides: Vec<u8> = points.iter().map(|p| keep.beyond(p.truncate())).collect();
+        let mut sides: Vec<u8> = points.iter().map(|p| beyond(keep, p.truncate())).collect();
         let mut area = Sum::default();
         let mut kept = Vec::with_capacity(mesh.triangles.len());
         for t in &mesh.triangles {
@@ -77,13 +78,13 @@ impl Fabric {
     }
 
     /// Box of all of it.
-    pub(super) fn whole(&self) -> Box2 {
-        Box2::around(self.vertices.iter().map(|v| v.truncate()))
+    pub(super) fn whole(&self) -> PlanBox {
+        PlanBox::of(self.vertices.iter().map(|v| v.truncate()))
     }
 
     #[inline]
-    pub(super) fn bounds(&self, t: u32) -> Box2 {
-        Box2::around(self.corners(t).map(DVec3::truncate))
+    pub(super) fn bounds(&self, t: u32) -> PlanBox {
+        PlanBox::of(self.corners(t).map(DVec3::truncate))
     }
 }
 

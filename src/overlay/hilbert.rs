@@ -1,6 +1,7 @@
 //! Points in an order in which neighbours in the list are neighbours in plan.
 
-use glam::{DVec2, DVec3};
+use crate::kernel::plan_box::PlanBox;
+use glam::DVec3;
 
 /// Points of one cell of the curve that are not worth a finer curve.
 const FEW: usize = 8;
@@ -8,11 +9,7 @@ const FEW: usize = 8;
 /// Orders `ids` of `points` along a Hilbert curve: 65 536 cells to a side, and within a crowded cell again as many. Points that
 /// coincide come next to each other. The order depends on coordinates and ids only.
 pub(super) fn sort(points: &[DVec3], ids: &mut [u32]) {
-    let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let (lo, hi) = ids.iter().fold(empty, |(lo, hi), &i| {
-        let p = points[i as usize].truncate();
-        (lo.min(p), hi.max(p))
-    });
+    let PlanBox { lo, hi } = PlanBox::of(ids.iter().map(|&i| points[i as usize].truncate()));
     let scale = CELLS / (hi - lo).max_element();
     if ids.len() <= FEW || !scale.is_finite() {
         let key = |i: u32| points[i as usize];

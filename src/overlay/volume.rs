@@ -1,11 +1,12 @@
 //! Cut and fill between two meshes.
 
-use super::boxes::Box2;
+use super::boxes::ALL;
 use super::fabric::{Fabric, Linked};
 use super::layers;
 use super::pieces;
 use super::tally;
 use crate::kernel::frame::Frame;
+use crate::kernel::plan_box::PlanBox;
 use crate::model::Terrain;
 use glam::{DVec2, DVec3};
 
@@ -157,7 +158,7 @@ fn boxed(name: &str, [lo, hi]: &[DVec2; 2]) -> String {
 pub fn between(design: &Terrain, existing: &Terrain, within: Option<&Terrain>) -> Result<Between, OverlayError> {
     let frame = if design.frame == existing.frame { existing.frame } else { common_frame(design, existing) };
     let boxes = [design, existing].map(|mesh| shifted_box(mesh, frame));
-    let area = within.map(|area| Fabric::new(area, frame, &Box2::ALL));
+    let area = within.map(|area| Fabric::new(area, frame, &ALL));
     // Where only a part is asked for, what lies beside the other mesh inside that part must be measured.
     let part = within.map(|area| shifted_box(area, frame));
     let d = Fabric::new(design, frame, part.as_ref().unwrap_or(&boxes[1]));
@@ -179,7 +180,7 @@ pub fn between(design: &Terrain, existing: &Terrain, within: Option<&Terrain>) -
     // Where meshes only touch, rounding may leave slivers.
     let smaller = design_area.min(existing_area);
     if tally.cells == 0 || tally.common() <= AREA_ROUNDING * smaller {
-        let world = |b: &Box2| [b.lo, b.hi].map(|p| frame.to_world(p.extend(0.0)).truncate());
+        let world = |b: &PlanBox| [b.lo, b.hi].map(|p| frame.to_world(p.extend(0.0)).truncate());
         return Err(match area {
             Some(area) if design_area == 0.0 || existing_area == 0.0 => {
                 let missed = if design_area == 0.0 { (Surface::Design, &boxes[0]) } else { (Surface::Existing, &boxes[1]) };
@@ -200,8 +201,8 @@ pub fn between(design: &Terrain, existing: &Terrain, within: Option<&Terrain>) -
 /// [`OverlayError`], as [`between`].
 pub fn to_elevation(existing: &Terrain, elevation: f64, within: Option<&Terrain>) -> Result<Between, OverlayError> {
     let frame = existing.frame;
-    let area = within.map(|area| Fabric::new(area, frame, &Box2::ALL));
-    let e = Fabric::new(existing, frame, &area.as_ref().map_or(Box2::ALL, Fabric::whole));
+    let area = within.map(|area| Fabric::new(area, frame, &ALL));
+    let e = Fabric::new(existing, frame, &area.as_ref().map_or(ALL, Fabric::whole));
     not_empty(&e, Surface::Existing)?;
     let linked = Linked::new(&e);
     let double = [0.0, single(&linked, Surface::Existing, frame)?];
@@ -210,7 +211,7 @@ pub fn to_elevation(existing: &Terrain, elevation: f64, within: Option<&Terrain>
         Some(area) => {
             let part = pieces::within(&e, &Linked::new(area));
             if part.area() == 0.0 {
-                let world = |b: &Box2| [b.lo, b.hi].map(|p| frame.to_world(p.extend(0.0)).truncate());
+                let world = |b: &PlanBox| [b.lo, b.hi].map(|p| frame.to_world(p.extend(0.0)).truncate());
                 let mesh = world(&shifted_box(existing, frame));
                 return Err(OverlayError::Outside { surface: Surface::Existing, mesh, within: world(&area.whole()) });
             }
@@ -246,10 +247,10 @@ fn common_frame(design: &Terrain, existing: &Terrain) -> Frame {
 }
 
 /// The box of the vertices in use, in `frame`.
-fn shifted_box(mesh: &Terrain, frame: Frame) -> Box2 {
+fn shifted_box(mesh: &Terrain, frame: Frame) -> PlanBox {
     let mut used = vec![false; mesh.vertices.len()];
     mesh.triangles.as_flattened().iter().for_each(|&v| used[v as usize] = true);
-    let b = Box2::around(mesh.vertices.iter().zip(used).filter(|(_, used)| *used).map(|(v, _)| v.truncate()));
+    let b = PlanBox::of(mesh.vertices.iter().zip(used).filter(|(_, used)| *used).map(|(v, _)| v.truncate()));
     let shift = mesh.frame.origin() - frame.origin();
-    Box2 { lo: b.lo + shift, hi: b.hi + shift }
+    PlanBox { lo: b.lo + shift, hi: b.hi + shift }
 }

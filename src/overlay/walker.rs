@@ -1,8 +1,8 @@
 //! Goes through the triangles of a mesh that share plan area with a given one.
 
-use super::boxes::Box2;
 use super::cell::{CUT, Corner, Patch, Ring, clip};
 use super::fabric::{Linked, NONE};
+use crate::kernel::plan_box::PlanBox;
 use glam::{DVec2, DVec3};
 use std::ops::ControlFlow;
 
@@ -57,7 +57,7 @@ impl<'a> Walker<'a> {
             self.hint = t;
             found = self.enter(t, patch, &mut visit);
         }
-        let bounds = Box2::around([a, b, c]);
+        let bounds = PlanBox::of([a, b, c]);
         let mesh = self.mesh;
         mesh.rim_boxes.meeting(&bounds, |run| {
             for i in run {
@@ -81,7 +81,7 @@ impl<'a> Walker<'a> {
     /// Like [`Self::over`], but asks the tree for all triangles: also finds those that lie on others.
     pub(super) fn over_all(&mut self, patch: &Patch, mut visit: impl FnMut(u32, &Ring)) {
         self.round = self.round.wrapping_add(1).max(1);
-        let bounds = Box2::around(patch.corners.map(DVec3::truncate));
+        let bounds = PlanBox::of(patch.corners.map(DVec3::truncate));
         let mesh = self.mesh;
         mesh.boxes.meeting(&bounds, |run| {
             for t in run {
@@ -91,7 +91,7 @@ impl<'a> Walker<'a> {
         });
     }
 
-    fn enter_near(&mut self, t: u32, bounds: &Box2, patch: &Patch, visit: &mut impl FnMut(u32, &Ring)) -> bool {
+    fn enter_near(&mut self, t: u32, bounds: &PlanBox, patch: &Patch, visit: &mut impl FnMut(u32, &Ring)) -> bool {
         self.seen[t as usize] != self.round && self.mesh.fabric.bounds(t).meets(bounds) && self.enter(t, patch, visit)
     }
 

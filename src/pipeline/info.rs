@@ -2,8 +2,8 @@
 
 use super::watch::{CHECKING, Observer, PREPARING, READING};
 use super::{Error, room};
-use crate::kernel::sum::Sum;
-use crate::model::{Defects, LengthUnit, Note, Terrain};
+use crate::mesh::volume::MeshAreas;
+use crate::model::{Defects, LengthUnit, Note};
 use crate::read::terrain::{RawTerrain, TerrainOptions, read_terrain};
 use crate::read::{Document, Held, Inventory, Pick, RawInput, RawShape, ReadError, ReadOptions, inventory, read_document};
 use crate::report::info::{BoxFigures, FileFigures, INFO_SCHEMA, InfoReport, LineRow, PartRow, Setting, SurfaceRow, UseRow};
@@ -189,26 +189,15 @@ fn as_ground(raw: RawTerrain, name: Option<String>, report: &mut InfoReport) -> 
             defects.push(looked.defects);
             let is_it = |row: &&mut SurfaceRow| row.vertices > 0 && (name.is_none() || row.name == name);
             if let Some(row) = report.surfaces.iter_mut().rfind(is_it) {
-                let [plan, surface] = areas(&prepared.terrain);
-                row.triangles = Some(prepared.terrain.triangles.len());
-                (row.plan_area, row.surface_area) = (Some(plan), Some(surface));
+                let ground = &prepared.terrain;
+                let areas = MeshAreas::of((0..ground.triangles.len()).map(|t| ground.corners(t)));
+                row.triangles = Some(ground.triangles.len());
+                (row.plan_area, row.surface_area) = (Some(areas.plan()), Some(areas.surface()));
             }
         }
         Err(found) => defects.push(found),
     }
     UseRow { name, ..row("ground", &defects, &notes) }
-}
-
-/// Area in plan, and as it lies.
-fn areas(terrain: &Terrain) -> [f64; 2] {
-    let mut sums = [Sum::default(); 2];
-    for t in 0..terrain.triangles.len() {
-        let [a, b, c] = terrain.corners(t);
-        let normal = (b - a).cross(c - a);
-        sums[0].add(0.5 * normal.z.abs());
-        sums[1].add(0.5 * normal.length());
-    }
-    sums.map(|sum| sum.value())
 }
 
 /// What a report of this program says of itself.

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 /// The foot points of one facet, as stations: a linear function of the plan position on a strip, one station on a cone.
 ///
-/// Off the creases every point of the surface has exactly one foot (design note "each point has one foot"), so volumes can be
+/// Off the creases every point of the surface has exactly one foot (docs/theory.md, Section 5), so volumes can be
 /// given to stations exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Foot {

@@ -2,6 +2,7 @@
 
 use super::at;
 use super::place::{defect, short};
+use crate::kernel::plan_box::PlanBox;
 use crate::model::{Defects, Line, Terrain};
 use glam::{DVec2, Vec2Swizzles};
 
@@ -19,42 +20,21 @@ const ZONE: f64 = 1e6;
 /// Triangles whose box is taken before it is compared with that of the line.
 const CHUNK: usize = 4096;
 
-#[derive(Clone, Copy)]
-struct Box {
-    lo: DVec2,
-    hi: DVec2,
+fn inside(one: &PlanBox, other: &PlanBox) -> bool {
+    other.lo.cmple(one.lo).all() && one.hi.cmple(other.hi).all()
 }
 
-impl Box {
-    fn of(points: impl Iterator<Item = DVec2>) -> Self {
-        let empty = Self { lo: DVec2::INFINITY, hi: DVec2::NEG_INFINITY };
-        points.fold(empty, |b, p| Self { lo: b.lo.min(p), hi: b.hi.max(p) })
-    }
+/// Distance from box to box, along the axis on which they are further apart.
+fn gap(one: &PlanBox, other: &PlanBox) -> f64 {
+    (one.lo - other.hi).max(other.lo - one.hi).max_element()
+}
 
-    fn meets(&self, other: &Self) -> bool {
-        self.lo.cmple(other.hi).all() && other.lo.cmple(self.hi).all()
-    }
+fn mapped(one: &PlanBox, of: impl Fn(DVec2) -> DVec2) -> PlanBox {
+    PlanBox::of([of(one.lo), of(one.hi)])
+}
 
-    fn inside(&self, other: &Self) -> bool {
-        other.lo.cmple(self.lo).all() && self.hi.cmple(other.hi).all()
-    }
-
-    /// Distance from box to box, along the axis on which they are further apart.
-    fn gap(&self, other: &Self) -> f64 {
-        (self.lo - other.hi).max(other.lo - self.hi).max_element()
-    }
-
-    fn extent(&self) -> f64 {
-        (self.hi - self.lo).max_element()
-    }
-
-    fn map(&self, of: impl Fn(DVec2) -> DVec2) -> Self {
-        Self::of([of(self.lo), of(self.hi)].into_iter())
-    }
-
-    fn text(&self) -> String {
-        format!("x {} to {}, y {} to {}", short(self.lo.x), short(self.hi.x), short(self.lo.y), short(self.hi.y))
-    }
+fn text(PlanBox { lo, hi }: &PlanBox) -> String {
+    format!("x {} to {}, y {} to {}", short(lo.x), short(hi.x), short(lo.y), short(hi.y))
 }
 
 /// Refuses a line of which no part can lie on the ground: their boxes in plan do not meet. Only vertices that triangles use
@@ -65,12 +45,11 @@ impl Box {
 /// front of the easting.
 pub fn check_overlap(terrain: &Terrain, ground: &str, line: &Line, label: &str) -> Result<(), Defects> {
     let world = |v: u32| terrain.frame.to_world(at(&terrain.vertices, v));
-    let road = Box::of(line.chains.iter().flat_map(|chain| &chain.vertices).map(|v| v.truncate()));
-    let mut field = Box::of(std::iter::empty());
+    let road = PlanBox::of(line.chains.iter().flat_map(|chain| &chain.vertices).map(|v| v.truncate()));
+    let mut field = PlanBox::EMPTY;
     // The box only grows, so that the first part of the ground which meets the line decides.
     for some in terrain.triangles.chunks(CHUNK) {
-        let of_some = Box::of(some.as_flattened().iter().map(|&v| world(v).truncate()));
-        field = Box { lo: field.lo.min(of_some.lo), hi: field.hi.max(of_some.hi) };
+        field = field.join(PlanBox::of(some.as_flattened().iter().map(|&v| world(v).truncate())));
         if road.meets(&field) {
             return Ok(());
         }
@@ -81,19 +60,19 @@ pub fn check_overlap(terrain: &Terrain, ground: &str, line: &Line, label: &str) 
     };
     let help = guess(&road, &field, heights)
         .unwrap_or_else(|| "check that both are in the same reference system and unit, and belong together".into());
-    let apart = 0.5 * (field.lo + field.hi) - 0.5 * (road.lo + road.hi);
+    let apart = field.middle() - road.middle();
     let figures = format!(
         "line: {}\n   = ground `{ground}`: {}\n   = from the middle of the line to that of the ground: ({}, {})",
-        road.text(),
-        field.text(),
+        text(&road),
+        text(&field),
         short(apart.x),
         short(apart.y)
     );
     Err(defect("no-overlap", "line and ground do not lie at the same place", label.to_owned(), figures, &help))
 }
 
-fn guess(road: &Box, field: &Box, heights: impl Fn() -> (f64, f64)) -> Option<String> {
-    if road.map(|p| p.yx()).meets(field) {
+fn guess(road: &PlanBox, field: &PlanBox, heights: impl Fn() -> (f64, f64)) -> Option<String> {
+    if mapped(road, |p| p.yx()).meets(field) {
         return Some(
             "easting and northing of one of them seem to be exchanged: name the columns, or exchange them in the file; for LandXML \
              with easting first give `--terrain-order enz`, or `--csv-order enz` for a line"
@@ -101,15 +80,15 @@ fn guess(road: &Box, field: &Box, heights: impl Fn() -> (f64, f64)) -> Option<St
         );
     }
     // Another unit or zone would put it far away.
-    let gap = road.gap(field);
-    if gap <= road.extent().max(field.extent()) {
+    let gap = gap(road, field);
+    if gap <= road.size().max(field.size()).max_element() {
         return Some(format!("the line lies {} beside the ground: use a ground that reaches beyond the works", short(gap)));
     }
     // Both feet may fit: the one that puts the whole line on the ground fits better.
     let scaled = |whole: bool| {
         UNITS.iter().find(|(factor, _)| {
-            let road = road.map(|p| p * *factor);
-            if whole { road.inside(field) } else { road.meets(field) }
+            let road = mapped(road, |p| p * *factor);
+            if whole { inside(&road, field) } else { road.meets(field) }
         })
     };
     if let Some((_, what)) = scaled(true).or_else(|| scaled(false)) {
@@ -117,13 +96,13 @@ fn guess(road: &Box, field: &Box, heights: impl Fn() -> (f64, f64)) -> Option<St
     }
     let (low, high) = heights();
     for (lo, hi) in [(-high, -low), (low, high)] {
-        let upright = Box { lo: DVec2::new(field.lo.x, lo), hi: DVec2::new(field.hi.x, hi) };
+        let upright = PlanBox { lo: DVec2::new(field.lo.x, lo), hi: DVec2::new(field.hi.x, hi) };
         if road.meets(&upright) {
             return Some("`y` of the ground seems to be its height, and `z` its northing: export it with Z up".into());
         }
     }
     let zones = ((field.lo.x + field.hi.x - road.lo.x - road.hi.x) / (2.0 * ZONE)).round();
-    if zones != 0.0 && road.map(|p| p + DVec2::new(zones * ZONE, 0.0)).meets(field) {
+    if zones != 0.0 && mapped(road, |p| p + DVec2::new(zones * ZONE, 0.0)).meets(field) {
         let which = if zones > 0.0 { "ground" } else { "line" };
         return Some(format!(
             "the eastings differ by {} million: that of the {which} seems to have the number of its zone in front; take it away",
@@ -138,7 +117,7 @@ mod tests {
     use super::*;
     use crate::kernel::frame::Frame;
     use crate::model::{Chain, Place, Role};
-    use glam::{DVec2, DVec3};
+    use glam::DVec3;
 
     fn message(line: &[(f64, f64)], corner: DVec3, size: DVec3) -> Option<String> {
         let vertices: Vec<DVec3> = line.iter().map(|&(x, y)| DVec3::new(x, y, 5.0)).collect();
@@ -184,6 +163,5 @@ mod tests {
              = from the middle of the line to that of the ground: (-499950, -5399925)\n   \
              = help: check that both are in the same reference system and unit, and belong together"
         );
-        assert!(Box::of([DVec2::ZERO].into_iter()).meets(&Box { lo: DVec2::ZERO, hi: DVec2::ONE }));
     }
 }

@@ -1,5 +1,6 @@
 //! Places of ground in messages.
 
+pub(super) use crate::model::digits::counted;
 use crate::model::{Defect, Defects, digits};
 use glam::DVec3;
 
@@ -11,11 +12,6 @@ pub(super) fn short(value: f64) -> String {
 /// A point in world coordinates.
 pub(super) fn point(p: DVec3) -> String {
     format!("({}, {}, {})", short(p.x), short(p.y), short(p.z))
-}
-
-/// `1 vertex`, `2 vertices`.
-pub(super) fn counted(n: usize, one: &str, many: &str) -> String {
-    format!("{n} {}", if n == 1 { one } else { many })
 }
 
 /// A single defect.

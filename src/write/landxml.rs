@@ -9,7 +9,7 @@ use super::number::{push_f64, push_u64};
 use super::obj::{finite_vertex, flush_if_full};
 use super::{EncodeError, Head};
 use crate::kernel::sum::Sum;
-use crate::mesh::{check::HalfEdges, polygon, volume};
+use crate::mesh::{check::HalfEdges, polygon, volume::MeshAreas};
 use crate::model::{CurveKind, LengthUnit, LineFeature, Tin};
 use glam::DVec3;
 use std::io::Write;
@@ -188,18 +188,12 @@ fn breaklines(out: &mut (impl Write + ?Sized), bytes: &mut Vec<u8>, head: &Head<
 
 /// Points and faces, with the figures by which a reader can check them.
 fn definition(out: &mut (impl Write + ?Sized), bytes: &mut Vec<u8>, tin: &Tin) -> Result<(), EncodeError> {
-    let (mut plan, mut surface) = (Sum::default(), Sum::default());
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for t in 0..tin.triangles.len() {
-        let [a, b, c] = tin.corners(t);
-        plan.add(volume::plan_area([a, b, c]));
-        surface.add(0.5 * (b - a).cross(c - a).length());
-        for p in [a, b, c] {
-            (low, high) = (low.min(p.z), high.max(p.z));
-        }
-    }
+    let triangles = || (0..tin.triangles.len()).map(|t| tin.corners(t));
+    let areas = MeshAreas::of(triangles());
+    let heights = triangles().flatten().map(|p| p.z);
+    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)));
     bytes.extend_from_slice(b"<Definition surfType=\"TIN");
-    let figures = [("area2DSurf", plan.value()), ("area3DSurf", surface.value()), ("elevMin", low), ("elevMax", high)];
+    let figures = [("area2DSurf", areas.plan()), ("area3DSurf", areas.surface()), ("elevMin", low), ("elevMax", high)];
     // Infinite for a mesh without triangles, and for heights whose squares are: then left out.
     for (key, value) in figures.into_iter().filter(|(_, value)| value.is_finite()) {
         bytes.extend_from_slice(format!("\" {key}=\"").as_bytes());

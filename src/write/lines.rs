@@ -10,9 +10,9 @@ use std::io::Write;
 /// Writes line work as a GeoJSON `FeatureCollection` of 3D `LineString`s in world coordinates, shortest digits that read back
 /// to the same bits. Returns the number of features written.
 ///
-/// Properties: `kind` always, `elevation` for level curves, `chain` for hinges, `part` for daylight lines. `crs`, the name of the coordinate system as the
-/// input gave it, becomes the (old, widely read) named `crs` member. Features are sorted by kind, then elevation, and otherwise
-/// stay in the given order. One of fewer than two points is no line and is left out.
+/// Properties: `kind` always, `elevation` for level curves, `chain` for hinges and breaklines, `part` for daylight lines.
+/// `crs`, the name of the coordinate system as the input gave it, becomes the (old, widely read) named `crs` member. Features are
+/// sorted by kind, then elevation, and otherwise stay in the given order. One of fewer than two points is no line and is left out.
 ///
 /// # Errors
 /// [`EncodeError::Io`] from the sink, [`EncodeError::NotFinite`] for a coordinate or elevation that is no number.

@@ -22,6 +22,21 @@ fn columns_of_the_ground() {
     site.run("build raised.geojson --slope 1:1.5 --terrain points.csv --terrain-order xyz").done();
 }
 
+/// Each mesh is told with its own size.
+#[test]
+fn sizes_of_design_and_finished_ground() {
+    let site = site();
+    let job = "build raised.geojson --slope 1:1.5 --terrain points.csv --terrain-order xyz";
+    let run = site.run(&format!("{job} -o design.obj --finished finished.obj"));
+    run.done();
+    for name in ["design.obj", "finished.obj"] {
+        let mesh = site.read(name);
+        let count = |key: &str| mesh.lines().filter(|line| line.starts_with(key)).count();
+        let wrote = format!("wrote {name}: {} vertices, {} triangles\n", count("v "), count("f "));
+        assert!(run.stderr.contains(&wrote), "{wrote}{}", run.stderr);
+    }
+}
+
 /// Catch points lie on the ground, where the sections of the report end; along rulings the slope is that asked for.
 #[test]
 fn slope_stakes_agree_with_the_sections() {

@@ -59,7 +59,7 @@ fn layers_of_a_drawing() {
     };
     let layers = "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n0\nLAYER\n2\nOFF\n62\n-7\n70\n0\n0\nENDTAB\n0\nENDSEC\n";
     let faces = [face("NORTH", 0), face("SOUTH", 1), face("NORTH", 2), face("OFF", 3)].concat();
-    let site = Site::with("g.dxf", &format!("{layers}0\nSECTION\n2\nENTITIES\n{faces}0\nENDSEC\n0\nEOF\n"));
+    let site = Site::with("g.dxf", format!("{layers}0\nSECTION\n2\nENTITIES\n{faces}0\nENDSEC\n0\nEOF\n"));
     let report = info(&site, "g.dxf");
     let parts = serde_json::json!([{"name": "NORTH", "faces": 2}, {"name": "SOUTH", "faces": 1}]);
     assert_eq!((&report["surfaces"][0]["faces"], &report["surfaces"][0]["parts"]), (&3.into(), &parts));

@@ -1,5 +1,6 @@
 //! Names of layers and blocks: bytes → text.
 
+pub(super) use crate::model::digits::counted;
 /// Letters 0x80 to 0x9F of Windows-1252; the five that are not assigned stay control characters.
 const WINDOWS_1252: [char; 32] = [
     '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', '\u{90}', '‘', '’', '“', '”',
@@ -50,11 +51,6 @@ fn unescape(text: &str) -> String {
 /// What two names have in common that are the same: case does not matter in drawings.
 pub(super) fn key(name: &str) -> String {
     name.to_lowercase()
-}
-
-/// `1 line`, `2 lines`.
-pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { many })
 }
 
 /// A list short enough for a message.

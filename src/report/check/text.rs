@@ -2,6 +2,7 @@
 
 use super::{BoundFigures, CheckReport, FindingFigures, PartFigures, PlaceFigures, ShareFigures, SlopesFigures};
 use crate::model::Slope;
+use crate::model::digits::counted;
 use crate::report::page::{Column, Group, Page, Row, printable};
 
 /// Degrees of a bin of the histogram as printed.
@@ -35,14 +36,14 @@ fn page(report: &CheckReport) -> Page {
     }
     page.words("area", &format!("{:.2} in plan, {:.2} in space", mesh.plan_area, mesh.surface_area));
     let boundary = &report.boundary;
-    let mut loops = vec![count(boundary.outer, "outer loop", "outer loops"), count(boundary.holes, "hole", "holes")];
+    let mut loops = vec![counted(boundary.outer, "outer loop", "outer loops"), counted(boundary.holes, "hole", "holes")];
     if boundary.seams > 0 {
-        loops.push(count(boundary.seams, "open seam", "open seams"));
+        loops.push(counted(boundary.seams, "open seam", "open seams"));
     }
     if boundary.unclosed > 0 {
         loops.push(format!("{} not closed", boundary.unclosed));
     }
-    let pieces = count(mesh.pieces, "piece", "pieces");
+    let pieces = counted(mesh.pieces, "piece", "pieces");
     page.words("boundary", &format!("{pieces}, {}, length {:.3}", loops.join(", "), boundary.length));
     for (severity, title) in [("error", "Errors"), ("remark", "Remarks")] {
         let found: Vec<&FindingFigures> = report.findings.iter().filter(|f| f.severity == severity).collect();
@@ -191,7 +192,7 @@ fn bound(page: &mut Page, b: &BoundFigures) {
 }
 
 pub(in crate::report) fn share(s: &ShareFigures) -> String {
-    format!("{} of the area ({:.2}, {})", percent(s.share), s.area, count(s.triangles, "triangle", "triangles"))
+    format!("{} of the area ({:.2}, {})", percent(s.share), s.area, counted(s.triangles, "triangle", "triangles"))
 }
 
 /// A share in percent. What is not all does not read as all, what is something not as nothing.
@@ -213,8 +214,4 @@ fn small(value: f64) -> String {
     } else {
         format!("{value:.4}")
     }
-}
-
-fn count(n: usize, one: &str, several: &str) -> String {
-    format!("{n} {}", if n == 1 { one } else { several })
 }

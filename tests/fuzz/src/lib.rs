@@ -4,6 +4,9 @@ mod memory;
 mod targets;
 
 /// Runs a target on the bytes of a fuzzer.
+///
+/// # Panics
+/// If there is none of that name, or if it finds something.
 pub fn run(name: &str, bytes: &[u8]) {
     let target = targets::TARGETS.iter().find(|(known, _)| *known == name);
     target.unwrap_or_else(|| panic!("there is no target `{name}`")).1(bytes);
