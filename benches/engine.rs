@@ -15,14 +15,19 @@ use std::time::{Duration, Instant};
 /// Side slope of all cases.
 const SLOPE: f64 = 0.5;
 
-const CASES: [(&str, usize); 8] = [
+const CASES: [(&str, usize); 13] = [
     ("smooth", 1_000),
     ("smooth", 10_000),
     ("smooth", 100_000),
+    ("smooth", 1_000_000),
     ("noisy", 1_000),
     ("noisy", 10_000),
     ("noisy", 100_000),
     ("road", 10_000),
+    ("road", 1_000_000),
+    ("circle", 16_000),
+    ("all-of-circle", 16_000),
+    ("all-of-waves", 16_000),
     ("raster", 10_000),
 ];
 
@@ -32,7 +37,9 @@ fn main() {
         run(name, count.parse().expect("a number of vertices"));
         return;
     }
-    println!("milliseconds; slope 1V:2H, tolerance 0.01, to 10 below the lowest vertex");
+    println!(
+        "milliseconds; slope 1V:2H, tolerance 0.01 (all-of: 0.000001), to 10 below the lowest vertex (circles: inside, 400)"
+    );
     println!(
         "{:>14} {:>7} {:>7} {:>7} {:>9} {:>7} {:>7} {:>8} {:>10} {:>7} {:>9} {:>9} {:>6}",
         "case",
@@ -56,11 +63,18 @@ fn main() {
     }
 }
 
+/// Whether the slopes of a case lie inside its ring, a circle: all facets meet in the middle.
+fn is_inside(name: &str) -> bool {
+    ["circle", "all-of-circle", "all-of-waves"].contains(&name)
+}
+
 /// The line of a case as a text file.
 fn text(name: &str, count: usize) -> String {
     let mut text = String::from("x,y,z\n");
+    let inside = is_inside(name);
     let mut row = |x: f64, y: f64, z: f64| {
-        let _ = writeln!(text, "{:.4},{:.4},{z:.4}", 500_000.0 + x, 5_400_000.0 + y);
+        let (x, y) = (500_000.0 + x, 5_400_000.0 + y);
+        let _ = if inside { writeln!(text, "{x:.6},{y:.6},{z:.6}") } else { writeln!(text, "{x:.4},{y:.4},{z:.4}") };
     };
     if name == "road" {
         let (mut x, mut y, mut z) = (0.0, 0.0, 100.0);
@@ -81,6 +95,10 @@ fn text(name: &str, count: usize) -> String {
     };
     for i in 0..count {
         let w = TAU * i as f64 / count as f64;
+        if inside {
+            row(500.0 * w.cos(), 500.0 * w.sin(), if name == "all-of-waves" { 100.0 + 12.0 * (w + 0.5).sin() } else { 100.0 });
+            continue;
+        }
         let waves = (3.0 * w + 0.3).sin() + 0.6 * (5.0 * w + 1.1).sin() + 0.5 * (7.0 * w + 2.9).sin();
         let radius = 500.0 + 40.0 * waves + if name == "noisy" { noise() } else { 0.0 };
         let height = 100.0 + 12.0 * (w + 0.5).sin() + 6.0 * (2.0 * w + 1.0).sin() + 4.0 * (3.0 * w).sin();
@@ -117,10 +135,11 @@ fn run(name: &str, count: usize) {
         slope: Slope::from_ratio(SLOPE).expect("a slope"),
         sheet: Sheet::Falling,
         side_of_lines: Side::Both,
-        side_of_rings: Side::Outside,
-        extent: Extent::Elevation(line.elevation_range().0 - 10.0),
+        side_of_rings: if is_inside(name) { Side::Inside } else { Side::Outside },
+        extent: Extent::Elevation(line.elevation_range().0 - if is_inside(name) { 400.0 } else { 10.0 }),
         interval: None,
-        tolerance: 0.01,
+        // So small that no vertex of a circle is dropped.
+        tolerance: if name.starts_with("all-of-") { 1e-6 } else { 0.01 },
         levels: Vec::new(),
         companion: None,
         frame: None,

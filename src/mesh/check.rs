@@ -3,6 +3,7 @@
 use crate::kernel::orientation::{Turn, turn};
 use crate::kernel::segment_tree::SegmentTree;
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 /// What is wrong with a mesh, and where it ends.
@@ -32,6 +33,9 @@ impl Soundness {
     }
 }
 
+/// Vertices whose edges are sorted at one go.
+const RUN: usize = 1024;
+
 /// The directed edges of a mesh, by their start.
 pub struct HalfEdges {
     start: Vec<u32>,
@@ -57,9 +61,19 @@ impl HalfEdges {
                 *slot += 1;
             }
         }
-        for v in 0..count {
-            to[start[v] as usize..start[v + 1] as usize].sort_unstable();
+        let mut rest = to.as_mut_slice();
+        let mut runs: Vec<(&[u32], &mut [u32])> = Vec::with_capacity(count.div_ceil(RUN));
+        for first in (0..count).step_by(RUN) {
+            let starts = &start[first..=count.min(first + RUN)];
+            let (run, tail) = rest.split_at_mut((starts[starts.len() - 1] - starts[0]) as usize);
+            runs.push((starts, run));
+            rest = tail;
         }
+        runs.into_par_iter().for_each(|(starts, run)| {
+            for w in starts.windows(2) {
+                run[(w[0] - starts[0]) as usize..(w[1] - starts[0]) as usize].sort_unstable();
+            }
+        });
         Self { start, to }
     }
 
@@ -75,8 +89,8 @@ impl HalfEdges {
 
     /// Edges without an opposite one, by their start.
     pub fn open(&self) -> Vec<[u32; 2]> {
-        let vertices = 0..self.start.len() as u32 - 1;
-        vertices.flat_map(|v| self.from(v).iter().filter(move |&&w| !self.has(w, v)).map(move |&w| [v, w])).collect()
+        let vertices = (0..self.start.len() as u32 - 1).into_par_iter();
+        vertices.flat_map_iter(|v| self.from(v).iter().filter(move |&&w| !self.has(w, v)).map(move |&w| [v, w])).collect()
     }
 }
 
@@ -85,16 +99,14 @@ pub fn check(points: &[DVec3], triangles: &[[u32; 3]], edges: &HalfEdges) -> Sou
     let plan = |v: u32| points[v as usize].truncate();
     let open = edges.open();
     let mut soundness = Soundness {
-        turned: triangles.iter().filter(|t| turn(plan(t[0]), plan(t[1]), plan(t[2])) != Turn::Left).count(),
+        turned: triangles.par_iter().filter(|t| turn(plan(t[0]), plan(t[1]), plan(t[2])) != Turn::Left).count(),
         pinched: open.windows(2).filter(|w| w[0][0] == w[1][0]).count(),
         boundary: loops(&open),
         ..Soundness::default()
     };
-    for v in 0..points.len() as u32 {
-        let ends = edges.from(v);
-        soundness.unused += usize::from(ends.is_empty());
-        soundness.repeated_edges += ends.windows(2).filter(|w| w[0] == w[1]).count();
-    }
+    let vertices = (0..points.len() as u32).into_par_iter();
+    soundness.unused = vertices.clone().filter(|&v| edges.from(v).is_empty()).count();
+    soundness.repeated_edges = vertices.map(|v| edges.from(v).windows(2).filter(|w| w[0] == w[1]).count()).sum();
     let overlaps = Overlaps::new(points, &soundness.boundary);
     (soundness.overlaps, soundness.overlap_at) = overlaps.count();
     soundness

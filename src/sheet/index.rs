@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::node::{self, Node};
+use super::focus::Focus;
+use super::node::{self, NO_FOCUS, Node, Tree};
 use super::{Ruling, Segment};
 
 /// Room on the stack of a traversal. Halving 2³² segments takes 32 levels, and each level leaves one node behind.
@@ -15,6 +16,7 @@ const SLACK: f64 = 64.0 * f64::EPSILON;
 pub struct Index {
     k: f64,
     nodes: Vec<Node>,
+    foci: Vec<Focus>,
     /// In the order of the leaves.
     segments: Vec<Segment>,
     /// Number of each stored segment.
@@ -33,15 +35,14 @@ impl Index {
     /// Precondition: at least one segment, fewer than 2³¹, all built with this `k`.
     pub fn new(segments: &[Segment], k: f64) -> Self {
         debug_assert!(!segments.is_empty(), "bug: an index of no segments");
-        let mut ids: Vec<u32> = (0..segments.len() as u32).collect();
-        let nodes = node::build(segments, &mut ids, k);
+        let Tree { ids, segments, nodes, foci } = node::build(segments, k);
         let mut slots = vec![0; ids.len()];
         for (slot, &id) in ids.iter().enumerate() {
             slots[id as usize] = slot as u32;
         }
         let magnitude = segments.iter().fold(0.0, |m: f64, s| m.max(s.za.abs()).max(s.zb.abs()));
         let (centre, reach) = (nodes[0].centre, nodes[0].half.length());
-        Self { k, nodes, segments: ids.iter().map(|&id| segments[id as usize]).collect(), ids, slots, centre, reach, magnitude }
+        Self { k, nodes, foci, segments, ids, slots, centre, reach, magnitude }
     }
 
     /// The side slope, rise per run.
@@ -96,7 +97,7 @@ impl Index {
                     }
                 }
             } else {
-                let (near, far) = self.children(node, x);
+                let (near, far) = self.children(node, x, best.0 - slack);
                 if far.1 >= best.0 - slack {
                     stack.push(far);
                 }
@@ -126,7 +127,7 @@ impl Index {
         stack.push((0, 0.0));
         while let Some((at, _)) = stack.pop() {
             let node = &self.nodes[at as usize];
-            if node.bound(x, self.k) < floor {
+            if self.bound(node, x, floor) < floor {
                 continue;
             }
             if node.count == 0 {
@@ -184,8 +185,8 @@ impl Index {
                     trim.leaf(node);
                 }
             } else {
-                let (near, far) = self.children(node, trim.end);
                 let floor = trim.floor();
+                let (near, far) = self.children(node, trim.end, floor);
                 if far.1 >= floor {
                     // Kept with the length its bound was taken at.
                     stack.push((far.0, trim.r));
@@ -198,19 +199,29 @@ impl Index {
             loop {
                 let Some((next, taken_at)) = stack.pop() else { return trim.r };
                 node = &self.nodes[next as usize];
-                if taken_at == trim.r || node.bound(trim.end, self.k) >= trim.floor() {
+                if taken_at == trim.r || self.bound(node, trim.end, trim.floor()) >= trim.floor() {
                     break;
                 }
             }
         }
     }
 
-    /// The children of an inner node with their bounds at `x`, the higher bound first.
+    /// No sheet of the node's segments is higher at `x`, up to rounding. Once that is below `floor`, it is not made tighter.
     #[inline]
-    fn children(&self, node: &Node, x: DVec2) -> ((u32, f64), (u32, f64)) {
+    fn bound(&self, node: &Node, x: DVec2, floor: f64) -> f64 {
+        let bound = node.bound(x, self.k);
+        if bound < floor || node.focus == NO_FOCUS {
+            return bound;
+        }
+        bound.min(self.foci[node.focus as usize].bound(x, self.k))
+    }
+
+    /// The children of an inner node with their bounds at `x`, see [`Self::bound`], the higher bound first.
+    #[inline]
+    fn children(&self, node: &Node, x: DVec2, floor: f64) -> ((u32, f64), (u32, f64)) {
         let at = node.first as usize;
-        let left = (node.first, self.nodes[at].bound(x, self.k));
-        let right = (node.first + 1, self.nodes[at + 1].bound(x, self.k));
+        let left = (node.first, self.bound(&self.nodes[at], x, floor));
+        let right = (node.first + 1, self.bound(&self.nodes[at + 1], x, floor));
         if left.1 >= right.1 { (left, right) } else { (right, left) }
     }
 }

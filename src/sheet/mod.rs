@@ -3,6 +3,7 @@
 //! Everything here speaks of the falling sheet, the upper envelope of the segments' cones; for the rising one the line is
 //! mirrored in z by the caller ([`Heights`] does it itself).
 
+mod focus;
 pub mod index;
 mod node;
 pub mod raster;

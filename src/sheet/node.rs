@@ -5,11 +5,15 @@
 //! stretch it is as wide as it is long, and above a steep one far too high (ten times slower on a long road near the slope).
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use super::Segment;
+use super::focus::{Around, Bend, Focus};
 
 /// Segments per leaf: testing a segment costs about as much as testing a box.
 const LEAF: usize = 8;
+/// Segments beyond which both halves are ordered in parallel.
+const PARALLEL: usize = 4096;
 /// The steepest lid of a box, in slopes: short of 1, where its bound would lose its digits.
 const STEEPEST_LID: f64 = 0.999;
 
@@ -31,7 +35,12 @@ pub(super) struct Node {
     pub(super) first: u32,
     /// Number of segments of a leaf; nought for an inner node.
     pub(super) count: u32,
+    /// Its focus, or [`NO_FOCUS`].
+    pub(super) focus: u32,
 }
+
+/// The number of a focus where there is none.
+pub(super) const NO_FOCUS: u32 = u32::MAX;
 
 impl Node {
     /// No sheet of the node's segments is higher at `x`, up to rounding.
@@ -55,44 +64,109 @@ impl Node {
     }
 }
 
-/// Builds the nodes from the top and puts `ids` into the order of the leaves.
-pub(super) fn build(segments: &[Segment], ids: &mut [u32], k: f64) -> Vec<Node> {
-    let middle = |id: u32| {
-        let segment = &segments[id as usize];
-        0.5 * (segment.a + segment.b)
-    };
-    let mut nodes = vec![boxed(segments, ids, k)];
-    let mut open = vec![(0, 0, ids.len())];
-    while let Some((at, from, to)) = open.pop() {
-        if to - from <= LEAF {
-            nodes[at].first = from as u32;
-            nodes[at].count = (to - from) as u32;
-            continue;
-        }
-        let part = &mut ids[from..to];
-        let (mut lo, mut hi) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        for &id in part.iter() {
-            lo = lo.min(middle(id));
-            hi = hi.max(middle(id));
-        }
-        let key = |id: u32| if hi.x - lo.x >= hi.y - lo.y { middle(id).x } else { middle(id).y };
-        let half = part.len() / 2;
-        // The number settles ties: the order of the leaves depends on the segments alone.
-        part.select_nth_unstable_by(half, |&i, &j| key(i).total_cmp(&key(j)).then(i.cmp(&j)));
-        let children = nodes.len();
-        nodes[at].first = children as u32;
-        nodes.push(boxed(segments, &ids[from..from + half], k));
-        nodes.push(boxed(segments, &ids[from + half..to], k));
-        open.push((children + 1, from + half, to));
-        open.push((children, from, from + half));
-    }
-    nodes
+/// Segments ordered leaf by leaf, with the nodes above them.
+pub(super) struct Tree {
+    /// Number of each segment, in the order of the leaves.
+    pub(super) ids: Vec<u32>,
+    /// The same order.
+    pub(super) segments: Vec<Segment>,
+    /// From the top; the children of a node lie side by side.
+    pub(super) nodes: Vec<Node>,
+    /// The foci of those that have one.
+    pub(super) foci: Vec<Focus>,
 }
 
-/// The box about some segments, turned to the principal axis of their ends, with its lid.
-fn boxed(segments: &[Segment], ids: &[u32], k: f64) -> Node {
-    let ends = || ids.iter().map(|&id| &segments[id as usize]).flat_map(|s| [s.a.extend(s.za), s.b.extend(s.zb)]);
-    let mean = ends().sum::<DVec3>() / (2 * ids.len()) as f64;
+/// Which segments lie under a node, and where its children are.
+#[derive(Clone, Copy)]
+struct Shape {
+    from: u32,
+    to: u32,
+    /// The left child; nought for a leaf.
+    child: u32,
+}
+
+/// The middle of a segment, with its number.
+#[derive(Clone, Copy)]
+struct Middle {
+    at: DVec2,
+    id: u32,
+}
+
+/// Builds the tree from the top. It depends on the segments alone, not on the number of threads.
+pub(super) fn build(segments: &[Segment], k: f64) -> Tree {
+    let middle = |(id, s): (usize, &Segment)| Middle { at: 0.5 * (s.a + s.b), id: id as u32 };
+    let mut middles: Vec<Middle> = segments.iter().enumerate().map(middle).collect();
+    let shapes = order(&mut middles, 0);
+    let ids: Vec<u32> = middles.iter().map(|m| m.id).collect();
+    drop(middles);
+    let segments: Vec<Segment> = ids.iter().map(|&id| segments[id as usize]).collect();
+    let root = boxed(&segments, f64::INFINITY, k).0;
+    let size = root.half.length();
+    let boxes: Vec<(Node, Option<Focus>)> =
+        shapes.par_iter().map(|s| boxed(&segments[s.from as usize..s.to as usize], size, k)).collect();
+    let mut foci = Vec::new();
+    let nodes = shapes.iter().zip(boxes).map(|(shape, (node, focus))| {
+        let (first, count) = if shape.child == 0 { (shape.from, shape.to - shape.from) } else { (shape.child, 0) };
+        let number = if focus.is_some() { foci.len() as u32 } else { NO_FOCUS };
+        foci.extend(focus);
+        Node { first, count, focus: number, ..node }
+    });
+    let nodes = nodes.collect();
+    Tree { ids, segments, nodes, foci }
+}
+
+/// Puts segments into the order of the leaves; the nodes above them, segments numbered from `first`.
+fn order(middles: &mut [Middle], first: u32) -> Vec<Shape> {
+    let count = middles.len();
+    let mut shapes = vec![Shape { from: first, to: first + count as u32, child: 0 }];
+    if count > PARALLEL {
+        let half = halve(middles);
+        let (left, right) = middles.split_at_mut(half);
+        let (left, right) = rayon::join(|| order(left, first), || order(right, first + half as u32));
+        shapes[0].child = 1;
+        // Below the two children come the other nodes of the left one, then those of the right one.
+        let moved = |shape: &Shape, by: u32| Shape { child: if shape.child == 0 { 0 } else { shape.child + by }, ..*shape };
+        let shifts = [2, left.len() as u32 + 1];
+        shapes.extend([moved(&left[0], shifts[0]), moved(&right[0], shifts[1])]);
+        shapes.extend(left[1..].iter().map(|s| moved(s, shifts[0])));
+        shapes.extend(right[1..].iter().map(|s| moved(s, shifts[1])));
+        return shapes;
+    }
+    let mut open = vec![(0, 0, count)];
+    while let Some((at, from, to)) = open.pop() {
+        if to - from <= LEAF {
+            continue;
+        }
+        let half = from + halve(&mut middles[from..to]);
+        let child = shapes.len();
+        shapes[at].child = child as u32;
+        for (from, to) in [(from, half), (half, to)] {
+            shapes.push(Shape { from: first + from as u32, to: first + to as u32, child: 0 });
+        }
+        open.push((child + 1, half, to));
+        open.push((child, from, half));
+    }
+    shapes
+}
+
+/// Splits segments across the longer side of their box: the first half comes to the front. Its size.
+fn halve(middles: &mut [Middle]) -> usize {
+    let (lo, hi) = middles.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(lo, hi), m| (lo.min(m.at), hi.max(m.at)));
+    let half = middles.len() / 2;
+    // The number settles ties: the order of the leaves depends on the segments alone.
+    if hi.x - lo.x >= hi.y - lo.y {
+        middles.select_nth_unstable_by(half, |a, b| a.at.x.total_cmp(&b.at.x).then(a.id.cmp(&b.id)));
+    } else {
+        middles.select_nth_unstable_by(half, |a, b| a.at.y.total_cmp(&b.at.y).then(a.id.cmp(&b.id)));
+    }
+    half
+}
+
+/// The box about some segments, turned to the principal axis of their ends, with its lid; and their focus. `size` is that of
+/// everything.
+fn boxed(segments: &[Segment], size: f64, k: f64) -> (Node, Option<Focus>) {
+    let ends = || segments.iter().flat_map(|s| [s.a.extend(s.za), s.b.extend(s.zb)]);
+    let mean = ends().sum::<DVec3>() / (2 * segments.len()) as f64;
     let (mut xx, mut xy, mut yy, mut tilt) = (0.0, 0.0, 0.0, DVec2::ZERO);
     for d in ends().map(|p| p - mean) {
         xx += d.x * d.x;
@@ -102,19 +176,25 @@ fn boxed(segments: &[Segment], ids: &[u32], k: f64) -> Node {
     }
     let axis = principal_axis(0.5 * (xx - yy), xy);
     let (mut lo, mut hi, mut spread) = (DVec2::INFINITY, DVec2::NEG_INFINITY, 0.0);
-    for d in ends().map(|p| p.truncate() - mean.truncate()) {
-        let local = DVec2::new(axis.dot(d), axis.perp_dot(d));
+    let mut bend = Bend::default();
+    for d in ends().map(|p| p - mean) {
+        let local = DVec2::new(axis.dot(d.truncate()), axis.perp_dot(d.truncate()));
         lo = lo.min(local);
         hi = hi.max(local);
         spread += local.x * local.x;
+        bend.add(local.x, DVec2::new(local.y, d.z / k));
     }
     let middle = 0.5 * (lo + hi);
     let centre = mean.truncate() + middle.x * axis + middle.y * axis.perp();
     // The straight line of best fit, then lifted to cover all.
     let rise = if spread > 0.0 { (axis.dot(tilt) / spread).clamp(-STEEPEST_LID * k, STEEPEST_LID * k) } else { 0.0 };
-    let lid = ends().fold(f64::NEG_INFINITY, |lid, p| lid.max(p.z - rise * axis.dot(p.truncate() - centre)));
+    let above = |p: DVec3| p.z - rise * axis.dot(p.truncate() - centre);
+    let (floor, lid) = ends().fold((f64::INFINITY, f64::NEG_INFINITY), |(f, l), p| (f.min(above(p)), l.max(above(p))));
     let lean = rise / ((k - rise) * (k + rise)).sqrt();
-    Node { centre, axis, half: 0.5 * (hi - lo), lid, rise, lean, first: 0, count: 0 }
+    let half = 0.5 * (hi - lo);
+    let around = Around { mean: mean.truncate(), axis, rise, slack: lid - floor + 2.0 * k * half.y };
+    let focus = Focus::of(segments, &around, &bend, size, k);
+    (Node { centre, axis, half, lid, rise, lean, first: 0, count: 0, focus: NO_FOCUS }, focus)
 }
 
 /// Unit eigenvector of the larger eigenvalue of the symmetric matrix with half difference of diagonal `c` and

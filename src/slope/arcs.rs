@@ -3,12 +3,15 @@
 //! Every piece of a facet's far boundary that it shares with partner `k` must be a piece of `k`'s boundary with it as the
 //! partner, run the other way. Where that holds for all, nothing was missed (docs/theory.md, "The certificate").
 
-use super::closure::{Closure, Knot, SNAP, VertexId};
+use super::closure::{Closure, Knot, VertexId};
 use super::facet::{END, FacetId};
 use super::network::twin;
 use super::trim::Sheet;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
+
+/// End points of arcs without a counterpart may be this far apart (length units) to be taken for one.
+const FARTHEST: f64 = 1.001e-6;
 
 /// Index of an arc.
 pub type ArcId = u32;
@@ -50,24 +53,28 @@ pub struct Arcs {
 }
 
 impl Arcs {
-    /// Merges vertices closer than [`SNAP`] along the boundary and pairs the arcs.
-    pub fn new(sheet: &Sheet, closure: &Closure) -> Self {
+    /// Merges vertices closer than `snap` along the boundary and pairs the arcs.
+    pub fn new(sheet: &Sheet, closure: &Closure, snap: f64) -> Self {
         let nodes = sheet.network.nodes.len() as VertexId;
         let mut merge = Merge { parent: (0..closure.vertices.len() as VertexId).collect(), nodes };
         let place = |v: VertexId| closure.vertices[v as usize];
         for knots in &closure.knots {
             for w in knots.windows(2) {
-                if place(w[0].vertex).distance(place(w[1].vertex)) <= SNAP {
-                    merge.unite(w[0].vertex, w[1].vertex);
+                // What stands for them must be as close: else a row of near neighbours would run together to one vertex.
+                let [a, b] = [w[0], w[1]].map(|knot| merge.root(knot.vertex));
+                if place(w[0].vertex).distance(place(w[1].vertex)) <= snap && place(a).distance(place(b)) <= snap {
+                    merge.unite(a, b);
                 }
             }
         }
         let mut arcs = Self::pair(sheet, closure, &mut merge);
-        for _ in 0..3 {
-            if arcs.unpaired.is_empty() || !arcs.heal(&mut merge, &closure.vertices) {
-                break;
+        let mut reach = snap;
+        while reach <= FARTHEST {
+            while !arcs.unpaired.is_empty() && arcs.heal(&mut merge, &closure.vertices, reach) {
+                arcs = Self::pair(sheet, closure, &mut merge);
             }
-            arcs = Self::pair(sheet, closure, &mut merge);
+            // First those that coincide, the others only if that is not enough.
+            reach *= 10.0;
         }
         arcs.merged = (0..closure.vertices.len() as VertexId).map(|v| merge.root(v)).collect();
         arcs
@@ -130,9 +137,8 @@ impl Arcs {
         Self { arcs, pieces, unpaired, merged: Vec::new() }
     }
 
-    /// Unites end points of unpaired arcs of the same two facets that nearly agree. Says whether there were any.
-    fn heal(&self, merge: &mut Merge, vertices: &[DVec3]) -> bool {
-        const REACH: f64 = 100.0 * SNAP;
+    /// Unites end points of unpaired arcs of the same two facets that agree to within `reach`. Says whether there were any.
+    fn heal(&self, merge: &mut Merge, vertices: &[DVec3], reach: f64) -> bool {
         let mut by_facets: FxHashMap<[FacetId; 2], Vec<ArcId>> = FxHashMap::default();
         for &i in &self.unpaired {
             let arc = &self.arcs[i as usize];
@@ -149,12 +155,12 @@ impl Arcs {
                     continue;
                 }
                 for (v, w) in [(arc.ends[0], other.ends[1]), (arc.ends[1], other.ends[0])] {
-                    if v != w && place(v).distance(place(w)) <= REACH {
+                    if v != w && place(v).distance(place(w)) <= reach {
                         any |= merge.unite(v, w);
                     }
                 }
             }
-            if place(arc.ends[0]).distance(place(arc.ends[1])) <= REACH {
+            if place(arc.ends[0]).distance(place(arc.ends[1])) <= reach {
                 any |= merge.unite(arc.ends[0], arc.ends[1]);
             }
         }

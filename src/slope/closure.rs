@@ -13,8 +13,12 @@ use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-/// Vertices of one facet closer than this (length units) are one.
+/// Vertices of one facet closer than this (length units) are one, unless that spoils a surface.
 pub const SNAP: f64 = 1e-8;
+
+/// The same where it does, as in the tips of very narrow strips: ten times the rounding of coordinates ten kilometres from the local
+/// origin.
+pub const FINER_SNAP: f64 = 2e-11;
 
 /// Knots closer than this (relative, in `τ`) lie on one ruling.
 const TIE_WIDTH: f64 = 1e-15;
@@ -108,8 +112,9 @@ pub enum Scope {
     All,
 }
 
-/// Closes the facets of a sheet. `hints` are extra rulings to look at: facet and `τ`.
-pub fn close(sheet: &Sheet, scope: Scope, hints: &[(FacetId, f64)]) -> Closure {
+/// Closes the facets of a sheet. `hints` are extra rulings to look at: facet and `τ`. Vertices of one facet closer than `snap` are
+/// one.
+pub fn close(sheet: &Sheet, scope: Scope, hints: &[(FacetId, f64)], snap: f64) -> Closure {
     let nodes = sheet.network.nodes.len();
     let joints = &sheet.fans.joints;
     let wanted = |f: FacetId| scope == Scope::All || sheet.facet(f).wanted;
@@ -124,7 +129,7 @@ pub fn close(sheet: &Sheet, scope: Scope, hints: &[(FacetId, f64)]) -> Closure {
             sheet.trim_joint(joint)
         })
         .collect();
-    let mut state = State::new(sheet, scope, tips);
+    let mut state = State::new(sheet, scope, tips, snap);
     let mut boundaries: Vec<Boundary> = (0..sheet.fans.facets.len() as FacetId)
         .into_par_iter()
         .map(|f| if wanted(f) { state.begin(f, &covered) } else { Boundary::default() })
@@ -190,6 +195,7 @@ enum Between {
 struct State<'a> {
     sheet: &'a Sheet<'a>,
     scope: Scope,
+    snap: f64,
     tips: Vec<Tip>,
     vertices: Vec<DVec3>,
     keys: Vec<Option<Key>>,
@@ -197,7 +203,7 @@ struct State<'a> {
 }
 
 impl<'a> State<'a> {
-    fn new(sheet: &'a Sheet<'a>, scope: Scope, tips: Vec<Tip>) -> Self {
+    fn new(sheet: &'a Sheet<'a>, scope: Scope, tips: Vec<Tip>, snap: f64) -> Self {
         let mut vertices = sheet.network.nodes.clone();
         let mut keys: Vec<Option<Key>> = vec![None; vertices.len()];
         let mut ids = FxHashMap::default();
@@ -209,7 +215,7 @@ impl<'a> State<'a> {
             keys.push((tip.r > 0.0).then_some(key));
             vertices.push(tip.point);
         }
-        Self { sheet, scope, tips, vertices, keys, ids }
+        Self { sheet, scope, snap, tips, vertices, keys, ids }
     }
 
     fn tip_vertex(&self, joint: u32) -> VertexId {
@@ -326,7 +332,7 @@ impl<'a> State<'a> {
         let point = self.vertices[vertex as usize];
         let facet = self.sheet.facet(f);
         let (tau, _) = facet.parameters(point.truncate());
-        let same = |k: &Knot| k.vertex != HINT && self.vertices[k.vertex as usize].distance(point) <= SNAP;
+        let same = |k: &Knot| k.vertex != HINT && self.vertices[k.vertex as usize].distance(point) <= self.snap;
         if knots.iter().any(|k| k.vertex == vertex) {
             return;
         }

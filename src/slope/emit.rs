@@ -5,7 +5,7 @@
 
 use super::arcs::{Arcs, Piece};
 use super::closure::{Closure, Knot, VertexId};
-use super::facet::{END, Facet, FacetId, Kind, Lateral};
+use super::facet::{END, FacetId, Kind, Lateral};
 use super::levels::Code;
 use super::network::{Given, twin};
 use super::polygon::{self, Corner};
@@ -73,15 +73,20 @@ struct Shared<'a> {
     edge_points: Vec<Vec<EdgePoint>>,
 }
 
-/// What one facet contributes.
+/// What some facets contribute.
 #[derive(Default)]
 struct Cell {
     points: Vec<DVec3>,
     triangles: Vec<[PointId; 3]>,
+    /// Each facet, and how many triangles there are up to the end of it.
+    facets: Vec<(FacetId, usize)>,
     traces: Vec<Traced>,
-    failed: bool,
+    failed: Vec<FacetId>,
     longest: f64,
 }
+
+/// Facets that are triangulated at one go: lists for each of them would cost more than what is in them.
+const AT_ONE_GO: usize = 128;
 
 /// A place on the far boundary of a facet.
 #[derive(Clone, Copy, Debug)]
@@ -100,22 +105,25 @@ pub fn emit(sheet: &Sheet, closure: &Closure, arcs: &Arcs, cut: &Cut) -> Slopes 
         .filter(|&f| sheet.facet(f).wanted && !arcs.pieces[f as usize].is_empty())
         .collect();
     let base = shared.points.len() as PointId;
-    let cells: Vec<Cell> = wanted.par_iter().map(|&f| shared.cell(f, base)).collect();
+    let cells: Vec<Cell> = wanted.par_chunks(AT_ONE_GO).map(|facets| shared.cell(facets, base)).collect();
     let mut slopes = Slopes::default();
     slopes.points.reserve(shared.points.len() + cells.iter().map(|c| c.points.len()).sum::<usize>());
     slopes.triangles.reserve(cells.iter().map(|c| c.triangles.len()).sum());
+    slopes.facets.reserve(slopes.triangles.capacity());
+    slopes.traces.reserve(cells.iter().map(|c| c.traces.len()).sum());
     slopes.points.extend_from_slice(&shared.points);
-    for (&f, cell) in wanted.iter().zip(&cells) {
+    for cell in cells {
         // A cell numbers its own points from `base`; they move behind those of the cells before it.
         let shift = slopes.points.len() as PointId - base;
         let place = |id: PointId| if id >= base { id + shift } else { id };
+        let before = slopes.triangles.len();
         slopes.points.extend_from_slice(&cell.points);
         slopes.triangles.extend(cell.triangles.iter().map(|t| t.map(place)));
-        slopes.facets.resize(slopes.triangles.len(), f);
-        slopes.traces.extend(cell.traces.iter().map(|&(kind, ends)| (kind, ends.map(place))));
-        if cell.failed {
-            slopes.failed.push(f);
+        for (f, upto) in cell.facets {
+            slopes.facets.resize(before + upto, f);
         }
+        slopes.traces.extend(cell.traces.iter().map(|&(kind, ends)| (kind, ends.map(place))));
+        slopes.failed.extend(cell.failed);
         slopes.longest_ruling = slopes.longest_ruling.max(cell.longest);
     }
     slopes.edge_points = shared.edge_points;
@@ -224,11 +232,14 @@ impl<'a> Shared<'a> {
         })
     }
 
-    fn cell(&self, f: FacetId, base: PointId) -> Cell {
+    fn cell(&self, facets: &[FacetId], base: PointId) -> Cell {
         let mut cell = Cell::default();
-        match self.sheet.facet(f).kind {
-            Kind::Strip(_) => self.strip(f, base, &mut cell),
-            Kind::Sector(_) => self.sector(f, base, &mut cell),
+        for &f in facets {
+            match self.sheet.facet(f).kind {
+                Kind::Strip(_) => self.strip(f, base, &mut cell),
+                Kind::Sector(_) => self.sector(f, base, &mut cell),
+            }
+            cell.facets.push((f, cell.triangles.len()));
         }
         cell
     }
@@ -317,7 +328,6 @@ impl<'a> Shared<'a> {
 
     /// A strip: one polygon per visible stretch of its edge, sliced at the levels.
     fn strip(&self, f: FacetId, base: PointId, cell: &mut Cell) {
-        let facet = self.sheet.facet(f);
         let pieces = &self.arcs.pieces[f as usize];
         let mut from = 0;
         while from < pieces.len() {
@@ -326,7 +336,7 @@ impl<'a> Shared<'a> {
                 to += 1;
             }
             let far = self.far(f, &pieces[from..to], base, cell);
-            self.strip_run(facet, &far, base, cell);
+            self.strip_run(f, &far, base, cell);
             from = to;
         }
     }
@@ -339,7 +349,8 @@ impl<'a> Shared<'a> {
         self.arcs.arcs[piece.arc as usize].ends[usize::from(piece.forward)]
     }
 
-    fn strip_run(&self, facet: &Facet, far: &[Far], base: PointId, cell: &mut Cell) {
+    fn strip_run(&self, f: FacetId, far: &[Far], base: PointId, cell: &mut Cell) {
+        let facet = self.sheet.facet(f);
         let (Some(first), Some(last)) = (far.first().copied(), far.last().copied()) else { return };
         let Kind::Strip(h) = facet.kind else { return };
         let nodes = [self.sheet.network.origin(h), self.sheet.network.target(h)];
@@ -380,7 +391,7 @@ impl<'a> Shared<'a> {
         Self::trace_far(far, cell);
         let mut slice = polygon::Slice::new(facet.d);
         if !slice.triangulate(&ring, &mut cell.triangles) {
-            cell.failed = true;
+            cell.failed.push(f);
         }
         cell.traces.extend(slice.chords.iter().map(|&(u, ends)| (Trace::Level(u), ends)));
     }

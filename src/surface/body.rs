@@ -8,6 +8,7 @@ use crate::model::{Design, Extent, Line, Part, Sheet as SheetKind, Tin};
 use crate::slope::emit::{self, Slopes, Trace};
 use crate::slope::network::Network;
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// The mesh with what is known of its triangles.
 pub(crate) struct Body {
@@ -51,7 +52,7 @@ impl Body {
                 (kind, [a.min(b), a.max(b)])
             })
             .collect();
-        traces.sort_unstable();
+        traces.par_sort_unstable();
         traces.dedup();
         let edge_points: Vec<Vec<emit::EdgePoint>> = slopes
             .edge_points
@@ -90,7 +91,7 @@ impl Body {
         };
         let traces = self.traces.iter().map(|&(trace, ends)| (mark(trace), ends));
         let mut marks: Vec<(Mark, [u32; 2])> = traces.chain(self.breaks.iter().copied()).collect();
-        marks.sort_unstable();
+        marks.par_sort_unstable();
         marks
     }
 
@@ -124,12 +125,14 @@ impl Body {
             }
         });
         let count = self.tin.triangles.len();
-        let found = volume::above_plane((0..count).map(|t| self.tin.corners(t)), plane);
-        let area = |range: std::ops::Range<usize>| -> f64 {
-            range.map(|t| volume::plan_area(self.tin.corners(t))).collect::<Sum>().value()
-        };
-        let cones = (0..self.on_cone.len()).filter(|&t| self.on_cone[t]).map(|t| volume::plan_area(self.tin.corners(t)));
-        let error_bound = moved * area(0..count) + chord * cones.collect::<Sum>().value();
+        let area = |t: usize| volume::plan_area(self.tin.corners(t));
+        let (found, error_bound) = rayon::join(
+            || volume::above_plane((0..count).map(|t| self.tin.corners(t)), plane),
+            || {
+                let cones = (0..self.on_cone.len()).filter(|&t| self.on_cone[t]);
+                moved * (0..count).map(area).collect::<Sum>().value() + chord * cones.map(area).collect::<Sum>().value()
+            },
+        );
         Volumes {
             cut: found.cut,
             fill: found.fill,

@@ -199,23 +199,34 @@ fn passed_over(sheet: &Sheet, part: &Part) -> bool {
     let own = &sheet.network.edges[part.edge];
     let [a, b] = part.s.map(|s| on(sheet, own, s));
     let u = (b - a).truncate();
-    sheet.network.edges.iter().enumerate().any(|(e, edge)| {
+    let passes = |e: u32| {
+        let edge = &sheet.network.edges[e as usize];
         let (c, d) = (nodes[edge.a as usize], nodes[edge.b as usize]);
         let (v, w) = ((d - c).truncate(), (c - a).truncate());
         let across = u.perp_dot(v);
         let (t, r) = (w.perp_dot(v) / across, w.perp_dot(u) / across);
         let meets = across != 0.0 && (0.0..=1.0).contains(&t) && (0.0..=1.0).contains(&r);
-        e != part.edge && meets && c.lerp(d, r).z - a.lerp(b, t).z > TOUCHING
-    })
+        e as usize != part.edge && meets && c.lerp(d, r).z - a.lerp(b, t).z > TOUCHING
+    };
+    // From a higher point anywhere on the piece, the sheet of an edge has not fallen farther at the middle.
+    let middle = 0.5 * (a + b);
+    let mut passed = false;
+    sheet.index.visit_above(middle.truncate(), middle.z - sheet.k * u.length(), |e| passed = passed || passes(e));
+    passed
 }
 
 /// The least slope, from `slope` on, at which nothing covers `p`, by Dinkelbach's iteration: the point of the line that is
 /// highest at the present slope gives the next one. `None` beyond the steepest that counts.
+///
+/// Precondition: `slope` is no flatter than that of the sheet, so only what covers `p` in the sheet does so at all.
 fn needed(sheet: &Sheet, p: DVec3, mut slope: f64) -> Option<f64> {
     const STEPS: usize = 60;
+    let mut above: Vec<u32> = Vec::new();
+    sheet.index.visit_above(p.truncate(), p.z, |e| above.push(e));
+    above.sort_unstable();
     for _ in 0..STEPS {
         let mut best = (0.0, 0.0);
-        for edge in &sheet.network.edges {
+        for edge in above.iter().map(|&e| &sheet.network.edges[e as usize]) {
             let (a, b) = (sheet.network.nodes[edge.a as usize], sheet.network.nodes[edge.b as usize]);
             let segment = Segment::new(a, b, slope);
             let foot = segment.point(segment.foot(p.truncate()));

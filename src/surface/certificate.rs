@@ -6,12 +6,17 @@ use super::buried::covered_ranges;
 use crate::mesh::check::{self, HalfEdges};
 use crate::model::{Design, Line, Part};
 use crate::sheet::Heights;
-use crate::slope::closure::Closure;
+use crate::slope::closure::{Closure, SNAP};
 use crate::slope::trim::Sheet;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 /// Triangles lower than this (length units) are too small for an angle.
 pub(crate) const MEASURABLE_HEIGHT: f64 = 1e-4;
+
+/// Triangles of slopes narrower than this in plan (length units) are too narrow for one: points as close as that are taken for one
+/// where facets meet.
+const MEASURABLE_WIDTH: f64 = SNAP;
 
 /// Bounds of the slope (degrees): in planar strips, on cones.
 pub(crate) const STRIP_BOUND: f64 = 0.01;
@@ -56,13 +61,14 @@ pub(crate) fn measure(
     edges: &HalfEdges,
     closure: &Closure,
 ) -> Result<Certificate, SurfaceError> {
-    let soundness = check::check(&body.tin.vertices, &body.tin.triangles, edges);
+    let (soundness, height_max_deviation) =
+        rayon::join(|| check::check(&body.tin.vertices, &body.tin.triangles, edges), || height_deviation(line, design, body));
     let mut certificate = Certificate {
         paired: true,
         manifold: soundness.manifold(),
         overlaps: soundness.overlaps,
         input_edges_kept: edges_kept(sheet, body, edges, closure),
-        height_max_deviation: height_deviation(line, design, body),
+        height_max_deviation,
         ..Certificate::default()
     };
     measure_slopes(design, body, &mut certificate);
@@ -97,17 +103,42 @@ pub(crate) fn measure(
 
 fn measure_slopes(design: &Design, body: &Body, certificate: &mut Certificate) {
     let alpha = design.slope.ratio().atan();
-    for (t, &on_cone) in body.on_cone.iter().enumerate() {
+    let found = (0..body.on_cone.len()).into_par_iter().fold(Slopes::default, |mut slopes, t| {
         let [a, b, c] = body.tin.corners(t);
-        if a.z.max(b.z).max(c.z) - a.z.min(b.z).min(c.z) <= MEASURABLE_HEIGHT {
-            continue;
+        if a.z.max(b.z).max(c.z) - a.z.min(b.z).min(c.z) > MEASURABLE_HEIGHT {
+            let normal = (b - a).cross(c - a);
+            let deviation = (normal.truncate().length().atan2(normal.z) - alpha).abs().to_degrees();
+            let worst = if body.on_cone[t] { &mut slopes.sectors } else { &mut slopes.strips };
+            if deviation > worst.min(0.1) && width([a, b, c]) > MEASURABLE_WIDTH {
+                *worst = worst.max(deviation);
+                slopes.beyond_0_1deg += usize::from(deviation > 0.1);
+            }
         }
-        let normal = (b - a).cross(c - a);
-        let deviation = (normal.truncate().length().atan2(normal.z) - alpha).abs().to_degrees();
-        let worst = if on_cone { &mut certificate.sector_max_deviation_deg } else { &mut certificate.strip_max_deviation_deg };
-        *worst = worst.max(deviation);
-        certificate.triangles_beyond_0_1deg += usize::from(deviation > 0.1);
-    }
+        slopes
+    });
+    let found = found.reduce(Slopes::default, |a, b| Slopes {
+        strips: a.strips.max(b.strips),
+        sectors: a.sectors.max(b.sectors),
+        beyond_0_1deg: a.beyond_0_1deg + b.beyond_0_1deg,
+    });
+    certificate.strip_max_deviation_deg = found.strips;
+    certificate.sector_max_deviation_deg = found.sectors;
+    certificate.triangles_beyond_0_1deg = found.beyond_0_1deg;
+}
+
+/// Largest deviations from the slope, in degrees.
+#[derive(Default)]
+struct Slopes {
+    strips: f64,
+    sectors: f64,
+    beyond_0_1deg: usize,
+}
+
+/// Width in plan: the least height of the triangle.
+fn width(corners: [DVec3; 3]) -> f64 {
+    let [a, b, c] = corners.map(DVec3::truncate);
+    let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
+    (b - a).perp_dot(c - a).abs() / longest
 }
 
 /// Compares sampled slope triangles with the sheet of the given line.
@@ -127,7 +158,7 @@ fn height_deviation(line: &Line, design: &Design, body: &Body) -> f64 {
 
 /// Whether consecutive points of every edge with a wanted side are joined by mesh edges, where the edge shows.
 fn edges_kept(sheet: &Sheet, body: &Body, edges: &HalfEdges, closure: &Closure) -> bool {
-    sheet.network.edges.iter().zip(&body.edge_points).enumerate().all(|(e, (edge, points))| {
+    sheet.network.edges.par_iter().zip(&body.edge_points).enumerate().all(|(e, (edge, points))| {
         if !(edge.wanted[0] || edge.wanted[1]) {
             return true;
         }

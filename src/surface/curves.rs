@@ -2,6 +2,9 @@
 
 use crate::model::{CurveKind, Line, LineFeature, Tin};
 
+/// Vertices are numbered anew where the numbers of a group run over so many times more than its segments.
+const SPARSE: usize = 8;
+
 /// What a mesh edge stands for that is more than a diagonal. In the order in which line work is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Mark {
@@ -57,14 +60,35 @@ fn push(
 
 /// Chains segments to paths that end where not exactly two segments meet; closed paths repeat their first vertex.
 pub fn chained(segments: &[[u32; 2]]) -> Vec<Vec<u32>> {
-    // Segments by vertex: (vertex, segment), sorted.
-    let mut by_vertex: Vec<(u32, u32)> = segments.iter().enumerate().flat_map(|(i, s)| s.map(|v| (v, i as u32))).collect();
-    by_vertex.sort_unstable();
-    let at = |v: u32| {
-        let from = by_vertex.partition_point(|e| e.0 < v);
-        let count = by_vertex[from..].iter().take_while(|e| e.0 == v).count();
-        &by_vertex[from..from + count]
-    };
+    let (low, high) = segments.as_flattened().iter().fold((u32::MAX, 0), |(low, high), &v| (low.min(v), high.max(v)));
+    if (high.saturating_sub(low)) as usize > SPARSE * segments.len() {
+        // Few of many vertices: by their order among those that occur.
+        let mut ids = segments.as_flattened().to_vec();
+        ids.sort_unstable();
+        ids.dedup();
+        let number = |v: u32| ids.partition_point(|&id| id < v) as u32;
+        let numbered: Vec<[u32; 2]> = segments.iter().map(|s| s.map(number)).collect();
+        let named = |path: Vec<u32>| path.into_iter().map(|v| ids[v as usize]).collect();
+        return chained(&numbered).into_iter().map(named).collect();
+    }
+    // Segments by vertex: `here[start[v]..start[v + 1]]`.
+    let mut start = vec![0_u32; (high.saturating_sub(low)) as usize + 2];
+    for &v in segments.as_flattened() {
+        start[(v - low) as usize + 1] += 1;
+    }
+    for v in 1..start.len() {
+        start[v] += start[v - 1];
+    }
+    let mut next = start.clone();
+    let mut here = vec![0_u32; 2 * segments.len()];
+    for (i, s) in segments.iter().enumerate() {
+        for v in s {
+            let slot = &mut next[(v - low) as usize];
+            here[*slot as usize] = i as u32;
+            *slot += 1;
+        }
+    }
+    let at = |v: u32| &here[start[(v - low) as usize] as usize..start[(v - low) as usize + 1] as usize];
     let mut used = vec![false; segments.len()];
     let walk = |from: u32, first: usize, used: &mut Vec<bool>| {
         let mut path = vec![from];
@@ -76,7 +100,7 @@ pub fn chained(segments: &[[u32; 2]]) -> Vec<Vec<u32>> {
             last = if last == a { b } else { a };
             path.push(last);
             let here = at(last);
-            next = if here.len() == 2 { here.iter().map(|e| e.1 as usize).find(|&j| !used[j]) } else { None };
+            next = if here.len() == 2 { here.iter().map(|&i| i as usize).find(|&j| !used[j]) } else { None };
         }
         path
     };
@@ -105,5 +129,14 @@ mod tests {
         let mut paths = chained(&[[0, 1], [1, 2], [2, 3], [1, 4], [7, 8], [8, 9], [7, 9]]);
         paths.sort();
         assert_eq!(paths, [vec![0, 1], vec![1, 2, 3], vec![1, 4], vec![7, 8, 9, 7]]);
+        // The same with numbers far apart.
+        let far = |v: u32| 1000 * v + 5;
+        let mut paths = chained(&[[0, 1], [1, 2], [2, 3], [1, 4], [7, 8], [8, 9], [7, 9]].map(|s| s.map(far)));
+        paths.sort();
+        assert_eq!(
+            paths,
+            [vec![0, 1], vec![1, 2, 3], vec![1, 4], vec![7, 8, 9, 7]].map(|p| p.into_iter().map(far).collect::<Vec<_>>())
+        );
+        assert!(chained(&[]).is_empty());
     }
 }

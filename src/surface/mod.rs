@@ -23,6 +23,7 @@ use crate::mesh::check::HalfEdges;
 use crate::mesh::region::RegionError;
 use crate::mesh::volume;
 use crate::model::{Design, Extent, Line, LineFeature, Memory, Note, Part, Sheet as SheetKind, Tin, TooLarge};
+use crate::slope::closure::{FINER_SNAP, SNAP};
 use crate::slope::emit::{self, Slopes};
 use crate::slope::facet::Kind;
 use crate::slope::fan::Fans;
@@ -32,6 +33,7 @@ use crate::slope::refine::Cut;
 use crate::slope::size;
 use crate::slope::trim::{self, Sheet};
 use body::Body;
+use solve::Solved;
 
 /// Share of the tolerance that simplifying the line may use.
 const SIMPLIFY_SHARE: f64 = 1.0 / 3.0;
@@ -294,59 +296,100 @@ fn made(line: &Line, design: &Design, plane: Option<&Plane>, watch: &dyn Watch) 
     let fans = Fans::new(&network, k);
     let index = trim::index_of(&network, k);
     let sheet = Sheet::new(&network, &fans, &index, k, ends.closure);
-    go_on("creases")?;
-    let solved = solve::solve(&sheet, watch)?;
-    go_on("mesh")?;
-    let cut = Cut { levels: &levels, chord: CHORD_SHARE * design.tolerance, reach: ends.reach };
-    room::for_mesh(line, size::least_triangles(&sheet, &solved.closure, &solved.arcs, &cut), &watch.memory())?;
-    let mut slopes = emit::emit(&sheet, &solved.closure, &solved.arcs, &cut);
-    for p in slopes.points.iter_mut().filter(|p| (p.z - ends.closure).abs() <= END_TIE) {
-        // Undoes [`END_TIE`]: the slope ends where it was asked to. (Ends at a distance lie well above the closure.)
-        p.z = ends.lowest;
-    }
-    if let Some(&f) = slopes.failed.first() {
-        let p = network.world(sheet.facet(f).foot(0.0));
-        return Err(SurfaceError::Unsound { what: format!("a strip at ({:.3}, {:.3}) could not be triangulated", p.x, p.y) });
-    }
-    room::for_mesh(line, slopes.triangles.len() as u64, &watch.memory())?;
-    let buried = buried::stretches(line, &sheet, &solved.closure);
-    let flats = flats::fill(line, design, &network, &mut slopes, &buried.stretches)?;
-    go_on("certificate")?;
-    let body = Body::new(&network, design, &slopes, &flats);
-    let (feet, foot_of) = feet_of(line, &sheet, &slopes);
-    let marks = body.marks(&network, design);
-    let edges = HalfEdges::new(body.tin.vertices.len(), &body.tin.triangles);
-    let heights: Vec<f64> = levels.heights.iter().map(|c| network.sign * c).collect();
-    let (certificate, lines) = rayon::join(
-        || certificate::measure(line, design, &sheet, &body, &edges, &solved.closure),
-        || plane.map_or_else(Vec::new, |_| curves::lines(line, &heights, &body.tin, &marks, &edges.open())),
-    );
-    let certificate = certificate?;
-    let (areas, volumes) = if let Some(&Plane { reference }) = plane {
-        go_on("volumes")?;
-        (Areas::of(&body.tin), body.volumes(line, design, reference, &ends, network.simplified_max, cut.chord))
-    } else {
-        Default::default()
+    let task =
+        Task { line, design, plane, network: &network, ends: &ends, levels: &levels, sheet: &sheet, memory: watch.memory() };
+    let made = |snap: f64| {
+        go_on("creases")?;
+        task.meshed(&solve::solve(&sheet, snap, watch)?, &go_on)
     };
-    let mut notes = flats.notes;
-    notes.extend(buried.below_note(design));
-    Ok(Surface {
-        lines,
-        marks,
-        feet,
-        foot_of,
-        platform_stations: body.stations,
-        levels: heights,
-        simplified: network.simplified,
-        collinear: network.collinear,
-        simplified_max: network.simplified_max,
-        buried: buried.stretches,
-        certificate,
-        areas,
-        volumes,
-        notes,
-        tin: body.tin,
-    })
+    match made(SNAP) {
+        // Vertices taken for one may turn over the tips of very narrow strips.
+        Err(flaw) if flaw.is_flaw() => match made(FINER_SNAP) {
+            Err(SurfaceError::Cancelled) => Err(SurfaceError::Cancelled),
+            finer => finer.map_err(|_| flaw),
+        },
+        made => made,
+    }
+}
+
+/// What a mesh is made for.
+struct Task<'a> {
+    line: &'a Line,
+    design: &'a Design,
+    plane: Option<&'a Plane>,
+    network: &'a Network,
+    ends: &'a Ends,
+    levels: &'a Levels,
+    sheet: &'a Sheet<'a>,
+    memory: Memory,
+}
+
+impl Task<'_> {
+    /// The mesh of a closed sheet, with its figures.
+    fn meshed(
+        &self,
+        solved: &Solved,
+        go_on: &impl Fn(&'static str) -> Result<(), SurfaceError>,
+    ) -> Result<Surface, SurfaceError> {
+        let Self { line, design, plane, network, ends, levels, sheet, memory } = *self;
+        go_on("mesh")?;
+        let cut = Cut { levels, chord: CHORD_SHARE * design.tolerance, reach: ends.reach };
+        room::for_mesh(line, size::least_triangles(sheet, &solved.closure, &solved.arcs, &cut), &memory)?;
+        let mut slopes = emit::emit(sheet, &solved.closure, &solved.arcs, &cut);
+        for p in slopes.points.iter_mut().filter(|p| (p.z - ends.closure).abs() <= END_TIE) {
+            // Undoes [`END_TIE`]: the slope ends where it was asked to. (Ends at a distance lie well above the closure.)
+            p.z = ends.lowest;
+        }
+        if let Some(&f) = slopes.failed.first() {
+            let p = network.world(sheet.facet(f).foot(0.0));
+            return Err(SurfaceError::Unsound { what: format!("a strip at ({:.3}, {:.3}) could not be triangulated", p.x, p.y) });
+        }
+        room::for_mesh(line, slopes.triangles.len() as u64, &memory)?;
+        let buried = buried::stretches(line, sheet, &solved.closure);
+        let flats = flats::fill(line, design, network, &mut slopes, &buried.stretches)?;
+        go_on("certificate")?;
+        let body = Body::new(network, design, &slopes, &flats);
+        let ((feet, foot_of), (marks, edges)) = rayon::join(
+            || feet_of(line, sheet, &slopes),
+            || rayon::join(|| body.marks(network, design), || HalfEdges::new(body.tin.vertices.len(), &body.tin.triangles)),
+        );
+        drop(slopes);
+        let heights: Vec<f64> = levels.heights.iter().map(|c| network.sign * c).collect();
+        let (certificate, lines) = rayon::join(
+            || certificate::measure(line, design, sheet, &body, &edges, &solved.closure),
+            || plane.map_or_else(Vec::new, |_| curves::lines(line, &heights, &body.tin, &marks, &edges.open())),
+        );
+        let certificate = certificate?;
+        drop(edges);
+        let (areas, volumes) = if let Some(&Plane { reference }) = plane {
+            go_on("volumes")?;
+            rayon::join(
+                || Areas::of(&body.tin),
+                || body.volumes(line, design, reference, ends, network.simplified_max, cut.chord),
+            )
+        } else {
+            Default::default()
+        };
+        let mut notes = flats.notes;
+        notes.extend(buried.below_note(design));
+        Ok(Surface {
+            lines,
+            marks,
+            feet,
+            foot_of,
+            platform_stations: body.stations,
+            levels: heights,
+            simplified: network.simplified,
+            collinear: network.collinear,
+            simplified_max: network.simplified_max,
+            buried: buried.stretches,
+            certificate,
+            areas,
+            volumes,
+            notes,
+            tin: body.tin,
+        })
+    }
 }
 
 /// The facets that have triangles, and the one of each triangle.

@@ -25,8 +25,9 @@ pub(super) struct Solved {
 }
 
 /// Closes and pairs the facets. What a first pass misses (a cone that just touches another sheet between two rulings) shows
-/// at the outer end or as an arc without a counterpart; rulings there are looked at in the next pass.
-pub(super) fn solve(sheet: &Sheet, watch: &dyn Watch) -> Result<Solved, SurfaceError> {
+/// at the outer end or as an arc without a counterpart; rulings there are looked at in the next pass. Vertices closer than
+/// `snap` are one.
+pub(super) fn solve(sheet: &Sheet, snap: f64, watch: &dyn Watch) -> Result<Solved, SurfaceError> {
     let mut scope = Scope::Wanted;
     let mut hints: Vec<(FacetId, f64)> = Vec::new();
     let mut solved;
@@ -35,12 +36,12 @@ pub(super) fn solve(sheet: &Sheet, watch: &dyn Watch) -> Result<Solved, SurfaceE
         if watch.cancelled() {
             return Err(SurfaceError::Cancelled);
         }
-        let closure = closure::close(sheet, scope, &hints);
+        let closure = closure::close(sheet, scope, &hints, snap);
         if closure.strangers > 0 && scope == Scope::Wanted {
             scope = Scope::All;
             continue;
         }
-        let arcs = Arcs::new(sheet, &closure);
+        let arcs = Arcs::new(sheet, &closure, snap);
         solved = Solved { closure, arcs };
         attempt += 1;
         let before = hints.len();
