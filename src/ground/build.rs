@@ -5,6 +5,7 @@ use super::figures::{self, Ground};
 use super::finished::Left;
 use super::nodes::Nodes;
 use super::patch::Patch;
+use super::patchwork::Patchwork;
 use super::reach::{Bounds, Reach};
 use super::shape::Shape;
 use super::stations::{Stations, axes};
@@ -112,14 +113,18 @@ impl<'a> Site<'a> {
     /// # Errors
     /// [`GroundError`]; meshes that fail their check are errors, never a result.
     pub fn build(self, designs: &[Design], options: &Options, watch: &dyn Watch) -> Result<Ground, GroundError> {
-        let mut ground = self.built(designs, options, watch)?;
-        if options.keep {
-            ground.terrain = Some(self.terrain);
+        let (mut ground, patchwork) = self.built(designs, options, watch)?;
+        match patchwork {
+            Some(patchwork) => {
+                ground.terrain = options.keep.then(|| self.terrain.clone());
+                ground.finished = Some(patchwork.apply(self.terrain));
+            }
+            None => ground.terrain = options.keep.then_some(self.terrain),
         }
         Ok(ground)
     }
 
-    fn built(&self, designs: &[Design], options: &Options, watch: &dyn Watch) -> Result<Ground, GroundError> {
+    fn built(&self, designs: &[Design], options: &Options, watch: &dyn Watch) -> Result<(Ground, Option<Patchwork>), GroundError> {
         let whole = designs.iter().any(|d| d.side_of_rings == Side::Inside) && self.line.chains.iter().all(|c| c.closed());
         if !whole {
             let needed = self.as_deep_as_needed(designs, watch)?;
@@ -132,7 +137,13 @@ impl<'a> Site<'a> {
         self.attempt(designs, whole, options, watch)
     }
 
-    fn attempt(&self, designs: &[Design], whole: bool, options: &Options, watch: &dyn Watch) -> Result<Ground, GroundError> {
+    fn attempt(
+        &self,
+        designs: &[Design],
+        whole: bool,
+        options: &Options,
+        watch: &dyn Watch,
+    ) -> Result<(Ground, Option<Patchwork>), GroundError> {
         let designs = self.in_common(designs);
         let tolerance = designs.iter().map(|design| design.tolerance).fold(f64::INFINITY, f64::min);
         surface::in_spite_of_touching(tolerance, GroundError::is_flaw, |joggle| {

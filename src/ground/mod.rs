@@ -11,6 +11,7 @@ mod finished;
 pub mod haul;
 mod nodes;
 mod patch;
+mod patchwork;
 pub mod piece;
 mod reach;
 pub mod section_slope;
