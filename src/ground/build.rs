@@ -124,7 +124,12 @@ impl<'a> Site<'a> {
         Ok(ground)
     }
 
-    fn built(&self, designs: &[Design], options: &Options, watch: &dyn Watch) -> Result<(Ground, Option<Patchwork>), GroundError> {
+    fn built(
+        &self,
+        designs: &[Design],
+        options: &Options,
+        watch: &dyn Watch,
+    ) -> Result<(Ground, Option<Patchwork>), GroundError> {
         let whole = designs.iter().any(|d| d.side_of_rings == Side::Inside) && self.line.chains.iter().all(|c| c.closed());
         if !whole {
             let needed = self.as_deep_as_needed(designs, watch)?;

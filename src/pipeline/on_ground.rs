@@ -106,11 +106,5 @@ fn designs(all: &[Wishes], site: &mut Site<'_>, line: &Line, label: &str, watch:
 /// Figures of the ground as given.
 fn terrain_figures(terrain: &Terrain) -> TerrainFigures {
     let (z_min, z_max) = terrain.height_range();
-    TerrainFigures {
-        vertices: terrain.vertices.len(),
-        triangles: terrain.triangles.len(),
-        triangles_used: 0,
-        z_min,
-        z_max,
-    }
+    TerrainFigures { vertices: terrain.vertices.len(), triangles: terrain.triangles.len(), triangles_used: 0, z_min, z_max }
 }

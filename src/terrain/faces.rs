@@ -129,7 +129,7 @@ mod tests {
             wheel.push([hub, rim(140), rim(141)]);
             wheel.push([rim(2), hub, rim(1)]);
             wheel.push([rim(2), hub, rim(1)]);
-            assert_eq!(found(&wheel), [149, 151]);
+            assert_eq!(found(&wheel), [149, 150, 151]);
         }
     }
 }
