@@ -103,6 +103,7 @@ fn engine(shape: &str, count: usize) -> f64 {
         levels: Vec::new(),
         companion: None,
         frame: None,
+        joggle: None,
     };
     timed(|| surface::build(&line, &design, None, &()).expect("a surface"))
 }

@@ -19,6 +19,7 @@ pub mod sections;
 mod shape;
 pub mod stations;
 pub mod tally;
+mod thinned;
 mod trimmed;
 mod works;
 

@@ -27,7 +27,7 @@ impl Patchwork {
         let unused = self.unused(vertices.len(), &triangles);
         if !unused.is_empty() {
             let number = numbers(vertices.len() + self.places.len(), &unused);
-            triangles.par_iter_mut().for_each(|t| *t = t.map(|v| number[v as usize]));
+            triangles.par_iter_mut().for_each(|t| *t = [number[t[0] as usize], number[t[1] as usize], number[t[2] as usize]]);
             drop_at(&mut vertices, &unused);
             drop_at(&mut triangles, &self.gone);
             triangles.extend(self.new.iter().map(|(t, _)| t.map(|v| number[v as usize])));

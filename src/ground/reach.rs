@@ -1,5 +1,6 @@
 //! How far the slopes can possibly reach: coarse bounds of the ground against a bound of the sheet.
 
+use super::thinned::thinned;
 use crate::kernel::frame::Frame;
 use crate::kernel::sum::Sum;
 use crate::mesh::volume::plan_area;
@@ -106,11 +107,12 @@ impl Bounds {
             for few in block.chunks(FEW) {
                 let mut of_few = 0.0;
                 for t in few {
-                    let corners = t.map(|v| terrain.vertices[v as usize]);
-                    of_few += plan_area(corners);
-                    let z = corners.map(|p| p.z);
-                    let (low, high) = (z[0].min(z[1]).min(z[2]), z[0].max(z[1]).max(z[2]));
-                    for [x, y] in t.map(|v| self.places[v as usize]) {
+                    // One by one: closures over arrays are not always inlined, and this is done for millions.
+                    let [a, b, c] = [t[0] as usize, t[1] as usize, t[2] as usize];
+                    let [p, q, r] = [terrain.vertices[a], terrain.vertices[b], terrain.vertices[c]];
+                    of_few += plan_area([p, q, r]);
+                    let (low, high) = (p.z.min(q.z).min(r.z), p.z.max(q.z).max(r.z));
+                    for [x, y] in [self.places[a], self.places[b], self.places[c]] {
                         cells = [cells[0].min(x), cells[1].min(y), cells[2].max(x), cells[3].max(y)];
                     }
                     self.cells_of_ground(terrain, t, |c| {
@@ -129,10 +131,13 @@ impl Bounds {
     ///
     /// A sheet of slope `k` lies nowhere in a cell above its height at the centre plus `k` times half the diagonal: where that is
     /// below the lowest ground of the cell, no slope comes into it (rising: the other way round). What lies beyond such cells
-    /// only is not connected to the line.
-    pub(crate) fn reach(&self, frame: &Frame, line: &Line, slope: Slope, sheet: Sheet) -> Reach {
-        let heights = Heights::new(line, slope, sheet);
-        let slack = slope.ratio() * 0.5 * self.cell.length();
+    /// only is not connected to the line. The sheet is known to `tolerance` at best.
+    pub(crate) fn reach(&self, frame: &Frame, line: &Line, slope: Slope, sheet: Sheet, tolerance: f64) -> Reach {
+        let step = 0.5 * tolerance / slope.ratio();
+        let thin = thinned(line, step);
+        let heights = Heights::new(thin.as_ref().unwrap_or(line), slope, sheet);
+        let off = if thin.is_some() { tolerance } else { 0.0 };
+        let slack = slope.ratio() * 0.5 * self.cell.length() + off;
         let mut reach = Reach { inside: vec![false; self.range.len()], lowest: f64::INFINITY, highest: f64::NEG_INFINITY };
         let mut pending = Vec::new();
         for chain in &line.chains {
@@ -219,7 +224,7 @@ impl Bounds {
     /// The same cells as [`Self::cells_of`], for a triangle of the ground.
     #[inline]
     fn cells_of_ground(&self, terrain: &Terrain, t: &[u32; 3], mut visit: impl FnMut(usize)) {
-        let [a, b, c] = t.map(|v| self.places[v as usize]);
+        let [a, b, c] = [self.places[t[0] as usize], self.places[t[1] as usize], self.places[t[2] as usize]];
         let cell = |p: [u16; 2]| usize::from(p[1]) * self.size[0] + usize::from(p[0]);
         if a == b && b == c {
             visit(cell(a));

@@ -55,6 +55,7 @@ pub fn positive_share(h: [f64; 3]) -> f64 {
 }
 
 /// Plan area of a triangle, positive counter-clockwise.
+#[inline]
 pub fn plan_area([a, b, c]: [DVec3; 3]) -> f64 {
     0.5 * (b - a).truncate().perp_dot((c - a).truncate())
 }

@@ -219,7 +219,8 @@ impl Reader<'_> {
         if little && stride == 24 && wanted == [(0, Scalar::Double), (1, Scalar::Double), (2, Scalar::Double)] {
             let (records, _) = data.as_chunks::<8>();
             let (records, _) = records.as_chunks::<3>();
-            let read = |r: &[[u8; 8]; 3]| DVec3::from(r.map(f64::from_le_bytes));
+            let read =
+                |r: &[[u8; 8]; 3]| DVec3::new(f64::from_le_bytes(r[0]), f64::from_le_bytes(r[1]), f64::from_le_bytes(r[2]));
             records.par_iter().with_min_len(CHUNK).map(read).collect_into_vec(vertices);
             return Ok(());
         }
@@ -297,7 +298,7 @@ impl Reader<'_> {
             }
             // Numbers below zero turn up as ones that are too large.
             let (corners, _) = record[1..].as_chunks::<4>();
-            [corners[0], corners[1], corners[2]].map(u32::from_le_bytes)
+            [u32::from_le_bytes(corners[0]), u32::from_le_bytes(corners[1]), u32::from_le_bytes(corners[2])]
         };
         records.par_iter().with_min_len(CHUNK).map(read).collect_into_vec(&mut faces.triangles);
         if others.into_inner() {
