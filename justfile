@@ -46,6 +46,12 @@ bench:
 peers *OPTIONS:
     tests/peers/run {{OPTIONS}}
 
+# The picture of how times grow, see docs/performance.md; some minutes
+growth:
+    mkdir -p out
+    cargo bench --bench growth > out/growth.txt
+    cargo run --example growth -- docs/growth.svg < out/growth.txt
+
 # The pictures of the README, from fixtures
 picture:
     mkdir -p out

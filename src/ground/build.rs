@@ -5,9 +5,11 @@ use super::figures::{self, Ground};
 use super::finished::Left;
 use super::nodes::Nodes;
 use super::patch::Patch;
+use super::patchwork::Patchwork;
 use super::reach::{Bounds, Reach};
 use super::shape::Shape;
 use super::stations::{Stations, axes};
+use super::thinned::thinned;
 use super::trimmed::Trimmed;
 use super::works::{End, Flood, Sink, Works};
 use super::{GroundError, cell};
@@ -63,6 +65,9 @@ pub struct Options {
     pub exactly: bool,
 }
 
+/// Everything but the finished ground, and what the works change of the ground if that is wanted.
+type Built = (Ground, Option<Patchwork>);
+
 impl<'a> Site<'a> {
     /// Puts the ground into a frame that holds line and ground alike; `label` names the ground in messages.
     pub fn new(line: &'a Line, terrain: Terrain, label: &'a str) -> Self {
@@ -90,7 +95,7 @@ impl<'a> Site<'a> {
 
     /// Finds how far slopes of a sheet can reach before they meet the ground, and the elevation at which that is.
     pub fn end(&mut self, slope: Slope, sheet: Sheet, tolerance: f64) -> f64 {
-        let reach = self.bounds.reach(&self.terrain.frame, self.line, slope, sheet);
+        let reach = self.bounds.reach(&self.terrain.frame, self.line, slope, sheet, tolerance);
         let (low, high) = self.line.elevation_range();
         let end = match sheet {
             Sheet::Falling => {
@@ -112,14 +117,18 @@ impl<'a> Site<'a> {
     /// # Errors
     /// [`GroundError`]; meshes that fail their check are errors, never a result.
     pub fn build(self, designs: &[Design], options: &Options, watch: &dyn Watch) -> Result<Ground, GroundError> {
-        let mut ground = self.built(designs, options, watch)?;
-        if options.keep {
-            ground.terrain = Some(self.terrain);
+        let (mut ground, patchwork) = self.built(designs, options, watch)?;
+        match patchwork {
+            Some(patchwork) => {
+                ground.terrain = options.keep.then(|| self.terrain.clone());
+                ground.finished = Some(patchwork.apply(self.terrain));
+            }
+            None => ground.terrain = options.keep.then_some(self.terrain),
         }
         Ok(ground)
     }
 
-    fn built(&self, designs: &[Design], options: &Options, watch: &dyn Watch) -> Result<Ground, GroundError> {
+    fn built(&self, designs: &[Design], options: &Options, watch: &dyn Watch) -> Result<Built, GroundError> {
         let whole = designs.iter().any(|d| d.side_of_rings == Side::Inside) && self.line.chains.iter().all(|c| c.closed());
         if !whole {
             let needed = self.as_deep_as_needed(designs, watch)?;
@@ -132,19 +141,19 @@ impl<'a> Site<'a> {
         self.attempt(designs, whole, options, watch)
     }
 
-    fn attempt(&self, designs: &[Design], whole: bool, options: &Options, watch: &dyn Watch) -> Result<Ground, GroundError> {
+    fn attempt(&self, designs: &[Design], whole: bool, options: &Options, watch: &dyn Watch) -> Result<Built, GroundError> {
         let designs = self.in_common(designs);
         let tolerance = designs.iter().map(|design| design.tolerance).fold(f64::INFINITY, f64::min);
         surface::in_spite_of_touching(tolerance, GroundError::is_flaw, |joggle| {
             let designs: Vec<Design> = designs.iter().map(|design| Design { joggle, ..design.clone() }).collect();
-            let mut ground = self.once(&designs, whole, options, watch)?;
-            ground.notes.extend(joggle.map(surface::joggle_note));
-            Ok(ground)
+            let mut built = self.once(&designs, whole, options, watch)?;
+            built.0.notes.extend(joggle.map(surface::joggle_note));
+            Ok(built)
         })
     }
 
-    fn once(&self, designs: &[Design], whole: bool, options: &Options, watch: &dyn Watch) -> Result<Ground, GroundError> {
-        let surfaces = self.surfaces(designs, watch)?;
+    fn once(&self, designs: &[Design], whole: bool, options: &Options, watch: &dyn Watch) -> Result<Built, GroundError> {
+        let surfaces = self.surfaces(self.line, designs, watch)?;
         let go_on = |stage| {
             watch.stage(stage);
             if watch.cancelled() { Err(SurfaceError::Cancelled) } else { Ok(()) }
@@ -223,8 +232,12 @@ impl<'a> Site<'a> {
             ..design.clone()
         };
         let coarse = self.in_common(&designs.iter().map(coarse).collect::<Vec<_>>());
+        // Sheets of the thinned line move by half of the slack below at most.
+        let steepest = coarse.iter().map(|design| design.slope.ratio() / design.tolerance).fold(0.0, f64::max);
+        let thin = thinned(self.line, 0.25 / steepest);
+        let line = thin.as_ref().unwrap_or(self.line);
         // Whatever is wrong is found again, and told, in the build proper.
-        let Ok(surfaces) = self.surfaces(&coarse, watch) else { return Ok(designs.to_vec()) };
+        let Ok(surfaces) = self.surfaces(line, &coarse, watch) else { return Ok(designs.to_vec()) };
         let Some(shape) = Shape::new(&surfaces.iter().collect::<Vec<_>>(), false) else { return Ok(designs.to_vec()) };
         let mut depth = Depth { shape: &shape, lowest: f64::INFINITY, highest: f64::NEG_INFINITY };
         Flood::run(&shape, &self.patch(&shape, false), false, &mut depth);
@@ -280,8 +293,8 @@ impl<'a> Site<'a> {
         designs.iter().map(common).collect()
     }
 
-    fn surfaces(&self, designs: &[Design], watch: &dyn Watch) -> Result<Vec<Surface>, GroundError> {
-        let build = |design: &Design| surface::build_uncut(self.line, design, watch);
+    fn surfaces(&self, line: &Line, designs: &[Design], watch: &dyn Watch) -> Result<Vec<Surface>, GroundError> {
+        let build = |design: &Design| surface::build_uncut(line, design, watch);
         let surfaces = match designs {
             [first, second] => {
                 let (first, second) = rayon::join(|| build(first), || build(second));
@@ -291,7 +304,7 @@ impl<'a> Site<'a> {
         };
         for (surface, design) in surfaces.iter().zip(designs) {
             if let Some(b) = surface.buried.first() {
-                let name = |chain: usize| self.line.chains[chain].name.clone();
+                let name = |chain: usize| line.chains[chain].name.clone();
                 let cure = match b.free_slope {
                     Some(free) => format!(
                         "a slope of 1:{:.3} or steeper instead of 1:{:.3}, or move the two apart",

@@ -6,6 +6,7 @@ use super::feeder::Fed;
 use super::finished::Left;
 use super::nodes::Nodes;
 use super::patch::{NONE, Patch};
+use super::patchwork::Patchwork;
 use super::shape::Shape;
 use super::stations::Stations;
 use super::trimmed::Trimmed;
@@ -96,11 +97,11 @@ pub(crate) struct Found<'a> {
     pub(crate) notes: &'a [Note],
 }
 
-/// Puts the results together and checks the meshes.
+/// Puts the results together and checks the meshes; the finished ground is left as what the works change.
 ///
 /// # Errors
 /// [`GroundError::Unsound`].
-pub(crate) fn ground(found: &Found) -> Result<Ground, GroundError> {
+pub(crate) fn ground(found: &Found) -> Result<(Ground, Option<Patchwork>), GroundError> {
     let mut number = Numbering::default();
     let triangles: Vec<[u32; 3]> = found.trimmed.triangles.iter().map(|t| number.triangle(*t)).collect();
     let parts: Vec<Part> = found.trimmed.from.iter().map(|&a| found.shape.parts[a as usize]).collect();
@@ -113,8 +114,8 @@ pub(crate) fn ground(found: &Found) -> Result<Ground, GroundError> {
     let finished = found.left.map(|left| finished(found, left)).transpose()?;
     let areas = Areas::of(&design);
     let (error_bound, simplified) = error_bound(found, &design);
-    Ok(Ground {
-        finished,
+    let ground = Ground {
+        finished: None,
         levels: levels(found, &lines),
         lines,
         daylight: daylight(found),
@@ -132,7 +133,8 @@ pub(crate) fn ground(found: &Found) -> Result<Ground, GroundError> {
         ground_used: found.patch.triangles.len(),
         notes: found.notes.to_vec(),
         design,
-    })
+    };
+    Ok((ground, finished))
 }
 
 /// The levels with a curve within the works, from the top down.
@@ -150,17 +152,19 @@ struct Numbering {
 
 impl Numbering {
     fn triangle(&mut self, t: [u32; 3]) -> [u32; 3] {
-        t.map(|id| {
-            if self.of.len() <= id as usize {
-                self.of.resize(id as usize + 1, NONE);
-            }
-            let number = &mut self.of[id as usize];
-            if *number == NONE {
-                *number = self.ids.len() as u32;
-                self.ids.push(id);
-            }
-            *number
-        })
+        t.map(|id| self.number(id))
+    }
+
+    fn number(&mut self, id: u32) -> u32 {
+        if self.of.len() <= id as usize {
+            self.of.resize(id as usize + 1, NONE);
+        }
+        let number = &mut self.of[id as usize];
+        if *number == NONE {
+            *number = self.ids.len() as u32;
+            self.ids.push(id);
+        }
+        *number
     }
 
     fn get(&self, id: u32) -> Option<u32> {
@@ -350,50 +354,22 @@ pub(crate) fn check_walls(shape: &Shape, works: &Works, nodes: &Nodes) -> Result
     }
 }
 
-/// The whole ground with the works in it: vertices of the ground first, in the order given.
-fn finished(found: &Found, left: &Left) -> Result<Tin, GroundError> {
+/// What the works change of the ground.
+fn finished(found: &Found, left: &Left) -> Result<Patchwork, GroundError> {
     let (terrain, patch, nodes) = (found.terrain, found.patch, found.nodes);
-    let mut in_patch = vec![false; terrain.triangles.len()];
-    patch.triangle_of.iter().for_each(|&t| in_patch[t as usize] = true);
-    left.kept.iter().for_each(|&b| in_patch[patch.triangle_of[b as usize] as usize] = false);
-    let new: Vec<([u32; 3], Part)> = left
-        .pieces
-        .iter()
-        .map(|&t| (t, Part::Ground))
-        .chain(found.trimmed.triangles.iter().zip(&found.trimmed.from).map(|(&t, &a)| (t, found.shape.parts[a as usize])))
-        .collect();
+    let mut kept = left.kept.iter().copied().peekable();
+    let gone = (0..patch.triangle_of.len() as u32).filter(|&b| kept.next_if_eq(&b).is_none());
+    let gone = gone.map(|b| patch.triangle_of[b as usize]).collect();
+    let design = found.trimmed.triangles.iter().zip(&found.trimmed.from);
+    let design = design.map(|(&t, &a)| (t, found.shape.parts[a as usize]));
+    let mut new: Vec<([u32; 3], Part)> = left.pieces.iter().map(|&t| (t, Part::Ground)).chain(design).collect();
     check_finished(found, left, &new)?;
-    let mut number = vec![NONE; terrain.vertices.len()];
-    let given = (0..terrain.triangles.len()).filter(|&t| !in_patch[t]);
-    given.clone().for_each(|t| terrain.triangles[t].iter().for_each(|&v| number[v as usize] = 0));
-    for id in new.iter().flat_map(|(t, _)| t) {
-        if let Some(v) = nodes.as_ground(*id, patch) {
-            number[v as usize] = 0;
-        }
+    let mut others = Numbering::default();
+    for v in new.iter_mut().flat_map(|(t, _)| t) {
+        *v = nodes.as_ground(*v, patch).unwrap_or_else(|| terrain.vertices.len() as u32 + others.number(*v));
     }
-    let mut vertices = Vec::new();
-    for (v, id) in number.iter_mut().enumerate().filter(|(_, id)| **id == 0) {
-        *id = vertices.len() as u32;
-        vertices.push(terrain.vertices[v]);
-    }
-    let mut others = vec![NONE; nodes.places.len()];
-    let mut triangles: Vec<[u32; 3]> = given.map(|t| terrain.triangles[t].map(|v| number[v as usize])).collect();
-    let mut parts = vec![Part::Ground; triangles.len()];
-    for (t, part) in new {
-        triangles.push(t.map(|id| match nodes.as_ground(id, patch) {
-            Some(v) => number[v as usize],
-            None => {
-                let number = &mut others[id as usize];
-                if *number == NONE {
-                    *number = vertices.len() as u32;
-                    vertices.push(nodes.places[id as usize]);
-                }
-                *number
-            }
-        }));
-        parts.push(part);
-    }
-    Ok(Tin { frame: terrain.frame, vertices, triangles, parts })
+    let places = others.ids.iter().map(|&id| nodes.places[id as usize]).collect();
+    Ok(Patchwork { gone, new, places })
 }
 
 /// The patch with the works in it must be sound, and end where the patch ended.

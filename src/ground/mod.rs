@@ -11,6 +11,7 @@ mod finished;
 pub mod haul;
 mod nodes;
 mod patch;
+mod patchwork;
 pub mod piece;
 mod reach;
 pub mod section_slope;
@@ -18,6 +19,7 @@ pub mod sections;
 mod shape;
 pub mod stations;
 pub mod tally;
+mod thinned;
 mod trimmed;
 mod works;
 

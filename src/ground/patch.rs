@@ -25,18 +25,19 @@ pub(crate) struct Patch {
 impl Patch {
     /// The triangles `chosen` of a ground.
     pub(crate) fn new(terrain: &Terrain, chosen: Vec<u32>) -> Self {
-        let mut number = vec![NONE; terrain.vertices.len()];
+        // From 1: memory that is nought costs nothing where the works do not come.
+        let mut number = vec![0_u32; terrain.vertices.len()];
         let mut vertex_of = Vec::new();
         let triangles: Vec<[u32; 3]> = chosen
             .iter()
             .map(|&t| {
                 terrain.triangles[t as usize].map(|v| {
                     let id = &mut number[v as usize];
-                    if *id == NONE {
-                        *id = vertex_of.len() as u32;
+                    if *id == 0 {
                         vertex_of.push(v);
+                        *id = vertex_of.len() as u32;
                     }
-                    *id
+                    *id - 1
                 })
             })
             .collect();

@@ -85,6 +85,7 @@ impl MeshAreas {
 }
 
 /// Plan area of a triangle, positive counter-clockwise.
+#[inline]
 pub fn plan_area([a, b, c]: [DVec3; 3]) -> f64 {
     0.5 * (b - a).truncate().perp_dot((c - a).truncate())
 }

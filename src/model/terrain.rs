@@ -2,6 +2,10 @@
 
 use crate::kernel::frame::Frame;
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+/// Vertices a thread looks at in one go.
+const CHUNK: usize = 1 << 16;
 
 /// A triangulated ground surface, single-valued in z (2.5D), triangles counter-clockwise seen from above.
 ///
@@ -26,16 +30,25 @@ impl Terrain {
     /// Plan box of all vertices in the local frame, lower left and upper right; both infinite the wrong way round if there are
     /// none.
     pub fn plan_box(&self) -> (DVec2, DVec2) {
-        let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        self.vertices.iter().fold(empty, |(lo, hi), v| (lo.min(v.truncate()), hi.max(v.truncate())))
+        let empty = || (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        let wider = |(lo, hi): (DVec2, DVec2), (a, b): (DVec2, DVec2)| (lo.min(a), hi.max(b));
+        let of_some = |some: &[DVec3]| some.iter().fold(empty(), |all, v| wider(all, (v.truncate(), v.truncate())));
+        self.vertices.par_chunks(CHUNK).map(of_some).reduce(empty, wider)
+    }
+
+    /// Lowest and highest vertex; the wrong way round if there are none.
+    pub fn height_range(&self) -> (f64, f64) {
+        let empty = || (f64::INFINITY, f64::NEG_INFINITY);
+        let wider = |(lo, hi): (f64, f64), (a, b): (f64, f64)| (lo.min(a), hi.max(b));
+        let of_some = |some: &[DVec3]| some.iter().fold(empty(), |all, v| wider(all, (v.z, v.z)));
+        self.vertices.par_chunks(CHUNK).map(of_some).reduce(empty, wider)
     }
 
     /// The same ground in another frame.
     pub fn in_frame(mut self, frame: Frame) -> Self {
         if frame != self.frame {
-            for v in &mut self.vertices {
-                *v = frame.to_local(self.frame.to_world(*v));
-            }
+            let before = self.frame;
+            self.vertices.par_iter_mut().for_each(|v| *v = frame.to_local(before.to_world(*v)));
             self.frame = frame;
         }
         self

@@ -161,12 +161,16 @@ pub fn between(design: &Terrain, existing: &Terrain, within: Option<&Terrain>) -
     let area = within.map(|area| Fabric::new(area, frame, &ALL));
     // Where only a part is asked for, what lies beside the other mesh inside that part must be measured.
     let part = within.map(|area| shifted_box(area, frame));
-    let d = Fabric::new(design, frame, part.as_ref().unwrap_or(&boxes[1]));
-    let e = Fabric::new(existing, frame, part.as_ref().unwrap_or(&boxes[0]));
+    let (d, e) = rayon::join(
+        || Fabric::new(design, frame, part.as_ref().unwrap_or(&boxes[1])),
+        || Fabric::new(existing, frame, part.as_ref().unwrap_or(&boxes[0])),
+    );
     not_empty(&d, Surface::Design)?;
     not_empty(&e, Surface::Existing)?;
-    let [linked_design, linked_existing] = [Linked::new(&d), Linked::new(&e)];
-    let double = [single(&linked_design, Surface::Design, frame)?, single(&linked_existing, Surface::Existing, frame)?];
+    let (linked_design, linked_existing) = rayon::join(|| Linked::new(&d), || Linked::new(&e));
+    let layers =
+        rayon::join(|| single(&linked_design, Surface::Design, frame), || single(&linked_existing, Surface::Existing, frame));
+    let double = [layers.0?, layers.1?];
     let (tally, design_area, existing_area) = if let Some(area) = &area {
         let area = Linked::new(area);
         let [cut_design, cut_existing] = [pieces::within(&d, &area), pieces::within(&e, &area)];

@@ -108,12 +108,6 @@ fn designs(all: &[Wishes], site: &mut Site<'_>, line: &Line, label: &str, watch:
 
 /// Figures of the ground as given.
 fn terrain_figures(terrain: &Terrain) -> TerrainFigures {
-    let heights = terrain.vertices.iter().map(|v| v.z);
-    TerrainFigures {
-        vertices: terrain.vertices.len(),
-        triangles: terrain.triangles.len(),
-        triangles_used: 0,
-        z_min: heights.clone().fold(f64::INFINITY, f64::min),
-        z_max: heights.fold(f64::NEG_INFINITY, f64::max),
-    }
+    let (z_min, z_max) = terrain.height_range();
+    TerrainFigures { vertices: terrain.vertices.len(), triangles: terrain.triangles.len(), triangles_used: 0, z_min, z_max }
 }

@@ -14,6 +14,7 @@ use crate::surface::Watch as _;
 use crate::validate;
 use crate::write::{Outputs, Target};
 use glam::DVec2;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -210,18 +211,30 @@ fn volumes(found: &Between, against: &Against, existing: &Source) -> BetweenVolu
     }
 }
 
+/// Triangles that are measured together.
+const PART: usize = 1 << 15;
+
 /// Size, heights and areas of a mesh as it takes part.
 fn mesh_figures(role: &'static str, mesh: &Terrain) -> MeshFigures {
+    let of_some = |some: &[[u32; 3]]| {
+        let (mut plan, mut surface) = (Sum::default(), Sum::default());
+        for [a, b, c] in some.iter().map(|t| t.map(|v| mesh.vertices[v as usize])) {
+            let normal = (b - a).cross(c - a);
+            plan.add(0.5 * normal.z.abs());
+            surface.add(0.5 * normal.length());
+        }
+        let heights = some.as_flattened().iter().map(|&v| mesh.vertices[v as usize].z);
+        let (z_min, z_max) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), z| (lo.min(z), hi.max(z)));
+        (plan, surface, z_min, z_max)
+    };
+    // In parts of fixed size, so that the sums are the same on any number of threads.
+    let parts: Vec<(Sum, Sum, f64, f64)> = mesh.triangles.par_chunks(PART).map(of_some).collect();
     let (mut plan, mut surface) = (Sum::default(), Sum::default());
     let (mut z_min, mut z_max) = (f64::INFINITY, f64::NEG_INFINITY);
-    for [a, b, c] in (0..mesh.triangles.len()).map(|t| mesh.corners(t)) {
-        let normal = (b - a).cross(c - a);
-        plan.add(0.5 * normal.z.abs());
-        surface.add(0.5 * normal.length());
-        for corner in [a, b, c] {
-            let z = mesh.frame.to_world(corner).z;
-            (z_min, z_max) = (z_min.min(z), z_max.max(z));
-        }
+    for part in parts {
+        plan.join(part.0);
+        surface.join(part.1);
+        (z_min, z_max) = (z_min.min(part.2), z_max.max(part.3));
     }
     MeshFigures {
         role,

@@ -20,6 +20,38 @@ pub(super) fn number(text: &[u8]) -> Option<f64> {
     plain(text).or_else(|| std::str::from_utf8(text).ok()?.parse().ok())
 }
 
+/// Reads a plain decimal number at the beginning of a text that goes on with a blank, or ends there: the number and its length.
+/// `None` for all that [`number`] has another way for.
+#[inline]
+pub(super) fn leading(text: &[u8]) -> Option<(f64, usize)> {
+    let digit = |at: usize| text.get(at).map(|b| b.wrapping_sub(b'0')).filter(|d| *d < 10);
+    let negative = text.first() == Some(&b'-');
+    let begin = usize::from(negative);
+    let mut at = begin;
+    let mut mantissa = 0_u64;
+    while let Some(digit) = digit(at) {
+        mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
+        at += 1;
+    }
+    let mut count = at - begin;
+    let mut decimals = 0;
+    if text.get(at) == Some(&b'.') {
+        at += 1;
+        let from = at;
+        while let Some(digit) = digit(at) {
+            mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
+            at += 1;
+        }
+        decimals = at - from;
+        count += decimals;
+    }
+    if text.get(at).is_some_and(|b| *b > b' ') || count == 0 || count > 19 || mantissa > WHOLE {
+        return None;
+    }
+    let value = mantissa as f64 / POWERS[decimals];
+    Some((if negative { -value } else { value }, at))
+}
+
 #[inline]
 fn plain(text: &[u8]) -> Option<f64> {
     let (negative, digits) = match text {
@@ -68,9 +100,16 @@ mod tests {
         for text in texts {
             let (ours, theirs) = (number(text.as_bytes()).unwrap(), text.parse::<f64>().unwrap());
             assert_eq!(ours.to_bits(), theirs.to_bits(), "{text}");
+            for after in ["", " 7", "\n"] {
+                if let Some((value, length)) = leading(format!("{text}{after}").as_bytes()) {
+                    assert_eq!((value.to_bits(), length), (theirs.to_bits(), text.len()), "{text}");
+                }
+            }
         }
+        assert_eq!(leading(b"-12.50 3"), Some((-12.5, 6)));
         for text in ["", ".", "-", "1,5", "1.2.3", "0x10", "1 2", "é", "--1"] {
             assert_eq!(number(text.as_bytes()), None, "{text}");
+            assert!(leading(text.as_bytes()).is_none_or(|(_, length)| length < text.len()), "{text}");
         }
     }
 }

@@ -1,6 +1,5 @@
 //! What the coordinates of ground say by themselves: box, precision, degrees.
 
-use super::corners::Corners;
 use super::place::{defect, point, short};
 use super::upright;
 use crate::kernel::plan_box::PlanBox;
@@ -22,25 +21,38 @@ pub(super) struct Coordinates {
     pub(super) lo: DVec3,
     /// Upper corner.
     pub(super) hi: DVec3,
-    /// Whether all plan coordinates are of single precision, and whether any is not whole.
-    single: bool,
+    /// All bits that are set in a plan coordinate, and whether any is not whole.
+    bits: u64,
     fractions: bool,
 }
 
+impl Default for Coordinates {
+    /// Those of no vertices.
+    fn default() -> Self {
+        Self { lo: DVec3::INFINITY, hi: DVec3::NEG_INFINITY, bits: 0, fractions: false }
+    }
+}
+
 impl Coordinates {
-    pub(super) fn new(vertices: &[DVec3], corners: Option<&Corners>) -> Self {
-        let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let mut bits = 0;
-        let mut fractions = false;
-        for (i, v) in vertices.iter().enumerate() {
-            if corners.is_none_or(|corners| corners.used(i)) {
-                lo = lo.min(*v);
-                hi = hi.max(*v);
-                bits |= v.x.to_bits() | v.y.to_bits();
-                fractions |= v.x.fract() != 0.0 || v.y.fract() != 0.0;
-            }
-        }
-        Self { lo, hi, single: bits & BEYOND_SINGLE == 0, fractions }
+    pub(super) fn new(vertices: &[DVec3]) -> Self {
+        let mut all = Self::default();
+        vertices.iter().for_each(|v| all.take(*v));
+        all
+    }
+
+    #[inline]
+    pub(super) fn take(&mut self, v: DVec3) {
+        self.lo = self.lo.min(v);
+        self.hi = self.hi.max(v);
+        self.bits |= v.x.to_bits() | v.y.to_bits();
+        self.fractions |= v.x.fract() != 0.0 || v.y.fract() != 0.0;
+    }
+
+    pub(super) fn join(&mut self, other: &Self) {
+        self.lo = self.lo.min(other.lo);
+        self.hi = self.hi.max(other.hi);
+        self.bits |= other.bits;
+        self.fractions |= other.fractions;
     }
 
     /// Refuses markers for missing heights: their triangles would be cliffs.
@@ -93,7 +105,7 @@ impl Coordinates {
         // So are the nodes of grids, which stand at round steps from a round corner.
         let grid = matches!(source.format, InputFormat::Asc | InputFormat::GeoTiff);
         let telling = !grid && (self.fractions || step > 1.0);
-        if source.kind != CoordinateKind::Degrees && self.single && telling && step >= COARSE {
+        if source.kind != CoordinateKind::Degrees && self.bits & BEYOND_SINGLE == 0 && telling && step >= COARSE {
             let message = format!(
                 "all plan coordinates of the ground are of single precision, in steps of up to {} at {}: they were rounded \
                  before they were written. Export the ground with double precision, or nearer to the origin",

@@ -25,6 +25,7 @@ use crate::read::terrain::{RawFaces, RawGround, RawTerrain};
 use coordinates::Coordinates;
 use corners::Corners;
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// Ground ready for use, and what was done to it on the way.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,7 +47,7 @@ pub struct Prepared {
 /// themselves, too few points.
 pub fn prepare(raw: RawTerrain) -> Result<Prepared, Defects> {
     let RawTerrain { source, ground, mut notes } = raw;
-    let (mut vertices, triangles) = match ground {
+    let (mut vertices, mut triangles) = match ground {
         RawGround::Mesh { vertices, faces } => {
             let triangles = match faces {
                 RawFaces::Triangles(triangles) => triangles,
@@ -60,21 +61,27 @@ pub fn prepare(raw: RawTerrain) -> Result<Prepared, Defects> {
             (vertices, Some(triangles))
         }
     };
-    let seen = triangles.as_ref().map(|triangles| Corners::new(vertices.len(), triangles));
-    let coordinates = Coordinates::new(&vertices, seen.as_ref());
+    let seen = triangles.as_mut().map(|triangles| {
+        let turned = faces::turn_up(&vertices, triangles);
+        (Corners::new(&vertices, triangles), turned)
+    });
+    let of_points = if seen.is_none() { Coordinates::new(&vertices) } else { Coordinates::default() };
+    let coordinates = seen.as_ref().map_or(&of_points, |(corners, _)| &corners.coordinates);
     let mut defects = Defects::default();
     coordinates.check(&vertices, &source, &mut defects, &mut notes);
     defects.into_result()?;
     let frame = Frame::around(coordinates.lo.truncate(), coordinates.hi.truncate());
     if frame != Frame::WORLD {
-        vertices.iter_mut().for_each(|v| *v = frame.to_local(*v));
+        vertices.par_iter_mut().for_each(|v| *v = frame.to_local(*v));
     }
     let mut terrain = Terrain { frame, vertices, triangles: Vec::new() };
     terrain.triangles = match (triangles, seen) {
-        (Some(mut triangles), Some(seen)) => {
-            unused(terrain.vertices.len(), &seen, &mut notes);
-            weld::weld(&terrain.vertices, &seen, &mut triangles, &mut notes);
-            faces::check(&source.label, &coordinates, &terrain, triangles, &mut notes)?
+        (Some(mut triangles), Some((mut corners, turned))) => {
+            unused(terrain.vertices.len(), corners.unused, &mut notes);
+            if weld::weld(&terrain.vertices, &corners.border, &mut triangles, &mut notes) {
+                corners.suspects = Corners::new(&terrain.vertices, &triangles).suspects;
+            }
+            faces::check(&source.label, &corners, &terrain, triangles, &turned, &mut notes)?
         }
         _ => points::triangulate(&source.label, &terrain, &mut notes)?,
     };
@@ -84,9 +91,8 @@ pub fn prepare(raw: RawTerrain) -> Result<Prepared, Defects> {
     Ok(Prepared { terrain, notes })
 }
 
-/// Counts the vertices no triangle uses in the file.
-fn unused(count: usize, seen: &Corners, notes: &mut Vec<Note>) {
-    let unused = (0..count).filter(|&v| !seen.used(v)).count();
+/// Tells of the vertices no triangle uses in the file.
+fn unused(count: usize, unused: usize, notes: &mut Vec<Note>) {
     if unused > 0 {
         let message = format!("{unused} of {count} vertices of the ground belong to no triangle");
         notes.push(Note::new("ground-vertices-unused", message));

@@ -71,11 +71,12 @@ pub fn write_obj(out: &mut (impl Write + ?Sized), tin: &Tin, head: &Head<'_>) ->
 
 /// Vertex `i` about an origin given in world coordinates, proved finite.
 pub(super) fn finite_vertex(tin: &Tin, i: usize, origin: DVec3) -> Result<[f64; 3], EncodeError> {
-    let p = (tin.world(i) - origin).to_array();
-    match p.iter().find(|v| !v.is_finite()) {
-        None => Ok(p),
-        Some(&value) => Err(EncodeError::NotFinite { what: "vertex", index: i + 1, value }),
+    let p = tin.world(i) - origin;
+    if p.is_finite() {
+        return Ok(p.to_array());
     }
+    let value = p.to_array().into_iter().find(|v| !v.is_finite()).unwrap_or(f64::NAN);
+    Err(EncodeError::NotFinite { what: "vertex", index: i + 1, value })
 }
 
 /// Hands the buffer to the sink once it holds a chunk.

@@ -22,18 +22,19 @@ pub fn write_ply(out: &mut (impl Write + ?Sized), tin: &Tin, head: &Head<'_>) ->
     let mut bytes = header(tin, head);
     let origin = head.origin.unwrap_or_default();
     for i in 0..tin.vertices.len() {
+        let [x, y, z] = finite_vertex(tin, i, origin)?;
         let mut record = [0_u8; 24];
-        for (field, value) in record.chunks_exact_mut(8).zip(finite_vertex(tin, i, origin)?) {
-            field.copy_from_slice(&value.to_le_bytes());
-        }
+        record[..8].copy_from_slice(&x.to_le_bytes());
+        record[8..16].copy_from_slice(&y.to_le_bytes());
+        record[16..].copy_from_slice(&z.to_le_bytes());
         bytes.extend_from_slice(&record);
         flush_if_full(out, &mut bytes)?;
     }
     for (triangle, part) in tin.triangles.iter().zip(&tin.parts) {
         let mut record = [3_u8; 14];
-        for (field, corner) in record[1..13].chunks_exact_mut(4).zip(triangle) {
-            field.copy_from_slice(&corner.to_le_bytes());
-        }
+        record[1..5].copy_from_slice(&triangle[0].to_le_bytes());
+        record[5..9].copy_from_slice(&triangle[1].to_le_bytes());
+        record[9..13].copy_from_slice(&triangle[2].to_le_bytes());
         record[13] = *part as u8;
         bytes.extend_from_slice(&record);
         flush_if_full(out, &mut bytes)?;

@@ -206,6 +206,7 @@ pub(in crate::read) fn clip(bytes: &[u8]) -> String {
 }
 
 /// Collects faces; stays with plain triangles as long as there is nothing else.
+#[derive(Default)]
 pub(in crate::read) struct Faces {
     triangles: Vec<[u32; 3]>,
     corners: Vec<u32>,
@@ -231,6 +232,27 @@ impl Faces {
         }
         self.corners.extend_from_slice(corners);
         self.ends.push(self.corners.len());
+    }
+
+    /// Number of all corners.
+    fn corner_count(&self) -> usize {
+        if self.mixed { self.corners.len() } else { 3 * self.triangles.len() }
+    }
+
+    /// All corners, one after the other.
+    fn corners_mut(&mut self) -> &mut [u32] {
+        if self.mixed { &mut self.corners } else { self.triangles.as_flattened_mut() }
+    }
+
+    /// Adds the faces of another.
+    fn append(&mut self, mut other: Self) {
+        if !self.mixed && !other.mixed {
+            self.triangles.append(&mut other.triangles);
+            return;
+        }
+        other.triangles.iter().for_each(|t| self.triangle(*t));
+        let begins = std::iter::once(0).chain(other.ends.iter().copied());
+        begins.zip(&other.ends).for_each(|(from, &to)| self.polygon(&other.corners[from..to]));
     }
 
     pub(in crate::read) fn len(&self) -> usize {

@@ -1,24 +1,23 @@
-//! Wavefront OBJ, through `tobj`.
+//! Wavefront OBJ: vertices and faces in the order of the file, by own code.
 //!
-//! `tobj` numbers the vertices of each object anew in the order of their use, drops those no face uses, takes polylines (`l`) for
-//! faces, divides by a fourth coordinate, passes over lines it does not know, and names no line in its errors. So it is fed
-//! ([`feed`]) with vertices and faces only, and first with one face made up of all vertices in their order: then its numbering
-//! is that of the file. Where it refuses, the line is looked up afterwards ([`diagnose`]).
+//! Lines are read ([`lines`]) by several threads, stretch by stretch; vertex numbers that count back get their meaning when the
+//! stretches are put together. A line that is wrong is looked at again ([`diagnose`]).
 
 mod diagnose;
-mod feed;
+mod lines;
+mod text;
 
 use super::comments::Spoken;
 use super::{Faces, RawFaces, RawGround, Said, refuse};
 use crate::model::Note;
 use crate::read::ReadError;
-use feed::Feed;
 use glam::DVec3;
+use std::borrow::Cow;
 
 pub(super) fn read(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
     let Loaded { vertices, faces, spoken, .. } = load(label, bytes, notes)?;
     if let Some(at) = vertices.iter().position(|p| !p.is_finite()) {
-        return Err(diagnose::not_finite(label, &feed::with_line_ends(bytes), at));
+        return Err(diagnose::not_finite(label, &text::with_line_ends(bytes), at));
     }
     let ground = match faces {
         Some(faces) => RawGround::Mesh { vertices, faces },
@@ -40,10 +39,17 @@ pub(super) struct Loaded {
 
 /// Reads a file with whatever coordinates it has.
 pub(super) fn load(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Loaded, ReadError> {
-    let bytes = feed::with_line_ends(bytes);
-    let bytes = bytes.as_ref();
-    let mut feed = Feed::new(label, bytes)?;
-    let (count, skipped) = (feed.vertices, feed.skipped);
+    let mut bytes = Cow::Borrowed(bytes);
+    let mut parts = lines::read(&bytes);
+    // Lines that end in other ways, or go on in the next: hardly any file has them, and none without a sign of it.
+    let odd =
+        parts.as_ref().map_or(true, |parts| parts.iter().any(|part| part.odd) || parts.iter().all(|p| p.vertices.is_empty()));
+    if odd && let Cow::Owned(text) = text::with_line_ends(&bytes) {
+        parts = lines::read(&text);
+        bytes = Cow::Owned(text);
+    }
+    let parts = parts.map_err(|at| diagnose::wrong_line(label, &bytes, at))?;
+    let count: usize = parts.iter().map(|part| part.vertices.len()).sum();
     if count == 0 {
         let figures = "no line begins with `v`";
         return Err(refuse("the OBJ file has no vertices", label, figures, "give a mesh, or points with elevations"));
@@ -51,55 +57,30 @@ pub(super) fn load(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<L
     if u32::try_from(count).is_err() {
         return Err(refuse("the OBJ file has too many vertices", label, format!("{count}"), "cut the ground down to the site"));
     }
+    let skipped: usize = parts.iter().map(|part| part.skipped).sum();
     if skipped > 0 {
         let message = format!("{skipped} lines with points or polylines (`p`, `l`) were passed over: they are no faces");
         notes.push(Note::new("obj-lines-ignored", message));
     }
-    let options = tobj::LoadOptions { single_index: false, triangulate: false, ignore_points: false, ignore_lines: false };
-    let loaded = tobj::load_obj_buf(&mut feed, &options, |_| Err(tobj::LoadError::OpenFileFailed));
-    let [groups, objects] = std::mem::take(&mut feed.groups);
-    let groups = if groups.is_empty() { objects } else { groups };
-    drop(feed);
-    let mesh = match loaded.map(|(mut models, _)| models.pop()) {
-        Ok(Some(model)) => model.mesh,
-        Ok(None) => return Err(diagnose::explain(label, bytes, tobj::LoadError::GenericFailure)),
-        Err(cause) => return Err(diagnose::explain(label, bytes, cause)),
-    };
-    if mesh.positions.len() != 3 * count || mesh.indices.len() < count {
-        // Cannot be: the first face names every vertex once.
-        return Err(diagnose::explain(label, bytes, tobj::LoadError::GenericFailure));
+    let mut vertices: Vec<DVec3> = Vec::with_capacity(count);
+    let mut faces = Faces::with_capacity(parts.iter().map(|part| part.faces.len()).sum());
+    let mut groups = [Vec::new(), Vec::new()];
+    for mut part in parts {
+        let there = part.place_relative(vertices.len());
+        if !there || part.missing || part.highest as usize >= count {
+            return Err(diagnose::missing(label, &bytes));
+        }
+        for (all, some) in groups.iter_mut().zip(part.groups) {
+            all.extend(some.into_iter().map(|(before, name)| (faces.len() + before, name)));
+        }
+        vertices.append(&mut part.vertices);
+        faces.append(part.faces);
     }
-    let (points, _) = mesh.positions.as_chunks::<3>();
-    let mut vertices: Vec<DVec3> = points.iter().map(|&p| DVec3::from(p)).collect();
-    let spoken = Spoken::of_obj(bytes);
+    let spoken = Spoken::of_obj(&bytes);
     spoken.place(&mut vertices, notes);
-    // The face of all vertices is dropped again.
-    let corners = &mesh.indices[count..];
-    let arities = mesh.face_arities.get(1..).unwrap_or(&[]);
-    if corners.is_empty() {
-        return Ok(Loaded { vertices, faces: None, groups, spoken });
-    }
-    let faces = faces(corners, arities).map_err(|face| diagnose::small_face(label, bytes, face))?;
-    Ok(Loaded { vertices, faces: Some(faces), groups, spoken })
-}
-
-/// Faces of the given numbers of corners; without numbers all are triangles. The error is the first face of fewer than three.
-fn faces(corners: &[u32], arities: &[u32]) -> Result<RawFaces, usize> {
-    if let Some(at) = arities.iter().position(|&n| n < 3) {
-        return Err(at);
-    }
-    if arities.iter().all(|&n| n == 3) {
-        let (triangles, _) = corners.as_chunks::<3>();
-        return Ok(RawFaces::Triangles(triangles.to_vec()));
-    }
-    let mut faces = Faces::with_capacity(0);
-    let mut rest = corners;
-    for &n in arities {
-        let Some((face, after)) = rest.split_at_checked(n as usize) else { break };
-        faces.polygon(face);
-        rest = after;
-    }
-    Ok(faces.finish())
+    let [groups, objects] = groups;
+    let groups = if groups.is_empty() { objects } else { groups };
+    Ok(Loaded { vertices, faces: Some(faces).filter(|faces| faces.len() > 0).map(Faces::finish), groups, spoken })
 }
 
 #[cfg(test)]
@@ -187,5 +168,117 @@ mod tests {
             assert!(message.contains(words), "{text}\n{message}");
         }
         assert!(error("vn 0 0 1\n").contains("no vertices"));
+    }
+
+    /// The corners of all faces as `tobj` reads them, as bits: it numbers vertices anew.
+    fn by_tobj(text: &str) -> Vec<Vec<[u64; 3]>> {
+        let options = tobj::LoadOptions { single_index: false, triangulate: false, ignore_points: true, ignore_lines: true };
+        let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| Ok(Default::default())).unwrap();
+        let of_mesh = |mesh: &tobj::Mesh| {
+            let (points, _) = mesh.positions.as_chunks::<3>();
+            let mut rest = mesh.indices.as_slice();
+            let mut faces = Vec::new();
+            while !rest.is_empty() {
+                let corners = mesh.face_arities.get(faces.len()).map_or(3, |&n| n as usize);
+                let (face, after) = rest.split_at(corners);
+                faces.push(face.iter().map(|&v| points[v as usize].map(f64::to_bits)).collect());
+                rest = after;
+            }
+            faces
+        };
+        models.iter().flat_map(|model| of_mesh(&model.mesh)).collect()
+    }
+
+    /// The same from our reader.
+    fn by_us(text: &str) -> Vec<Vec<[u64; 3]>> {
+        let (vertices, faces) = ok(text);
+        let of_face = |face: &[u32]| face.iter().map(|&v| vertices[v as usize].to_array().map(f64::to_bits)).collect();
+        match faces {
+            RawFaces::Triangles(triangles) => triangles.iter().map(|t| of_face(t)).collect(),
+            RawFaces::Polygons { corners, ends } => {
+                let begins = std::iter::once(0).chain(ends.iter().copied());
+                begins.zip(&ends).map(|(from, &to)| of_face(&corners[from..to])).collect()
+            }
+        }
+    }
+
+    /// Several stretches of lines with all spellings of numbers and corners, counted forwards and back across the borders of the
+    /// stretches; `tobj` is of another opinion nowhere.
+    #[test]
+    fn another_reader_reads_the_same() {
+        use std::fmt::Write as _;
+        let mut text = String::new();
+        let mut state = 1_u64;
+        let mut random = |n: u64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) % n
+        };
+        let mut count = 0_u64;
+        for i in 0..60_000 {
+            let [x, y, z] = [random(1 << 40), random(1 << 50), random(1 << 20)].map(|v| v as f64 / 1e4 - 1e5);
+            let _ = match random(6) {
+                0 => writeln!(text, "v {x} {y} {z}"),
+                1 => writeln!(text, "v {x:.3} {y:e} {z:.1}"),
+                2 => writeln!(text, "v  {x:+}\t{y:.0} {z:.17}  "),
+                _ => writeln!(text, "v {x:.4} {y:.4} {z:.4}"),
+            };
+            count += 1;
+            if i % 1000 == 0 {
+                let _ = writeln!(text, "# {i}\nvn 0 0 1\nvt 0.5 0.5\nusemtl a{i}\no b{i}");
+            }
+            if count > 5 {
+                let corners = if random(20) == 0 { 4 + random(2) } else { 3 };
+                text.push('f');
+                for _ in 0..corners {
+                    let v = random(count) + 1;
+                    let back = (count - v + 1) as i64;
+                    let _ = match random(5) {
+                        0 => write!(text, " -{back}"),
+                        1 => write!(text, " {v}/1/1"),
+                        2 => write!(text, " {v}//1"),
+                        _ => write!(text, " {v}"),
+                    };
+                }
+                text.push('\n');
+            }
+        }
+        assert!(text.len() > 2 << 20, "several stretches");
+        let (ours, theirs) = (by_us(&text), by_tobj(&text));
+        assert_eq!(ours.len(), theirs.len());
+        assert!(ours == theirs);
+        for fixture in ["ground.obj"] {
+            let text = std::fs::read_to_string(format!("{}/fixtures/{fixture}", env!("CARGO_MANIFEST_DIR"))).unwrap();
+            assert!(by_us(&text) == by_tobj(&text), "{fixture}");
+        }
+    }
+
+    #[test]
+    fn odd_lines_are_seen_wherever_they_are() {
+        let plain = ok(&format!("{FOUR}f 1 2 3\nf 1 3 4\n"));
+        for text in [
+            format!("# a \\\nb\n{FOUR}f 1 2 3\nf 1 3 4\n"),
+            format!("# a\r{FOUR}f 1 2 3\rf 1 3 4\r"),
+            format!("g a \\\nb\n{FOUR}f 1 2 3\nf 1 \\\n3\\\n4"),
+            format!("{FOUR}f 1 2 3\rf 1 3 4\n"),
+            format!("{FOUR}f 1 2 3\n# a\rf 1 3 4\n"),
+            format!("{FOUR}f 1 2 3#a\nf 1// 3/ 4/1#\n"),
+            format!("{FOUR}f +1 2 3\nf 1 3 4 \r\n"),
+        ] {
+            assert_eq!(ok(&text), plain, "{text:?}");
+        }
+        // Line numbers are those of the file.
+        assert!(error(&format!("{FOUR}f 1 \\\n2 3\nf 1 3 9\n")).contains("line 7"));
+    }
+
+    #[test]
+    fn numbers_beyond_all_bounds() {
+        for text in ["4294967296", "4294967297", "99999999999999999999999", "-2147483649", "-99999999999999999999999"] {
+            let message = error(&format!("{FOUR}f 1 2 3\nf 1 2 {text}\n"));
+            assert!(message.contains("line 6") && message.contains(&format!("vertex {text}")), "{message}");
+        }
+        for text in ["-", "1/-", "1/2/3/4", "1/x", "1e0", "0x1", "1 2 3 é", ""] {
+            let message = error(&format!("{FOUR}f {text}\n"));
+            assert!(message.contains("a.obj, line 5"), "{text}: {message}");
+        }
     }
 }

@@ -9,9 +9,17 @@ use crate::model::Note;
 use crate::read::ReadError;
 use glam::DVec3;
 use header::{Element, Encoding, Header, Kind, Scalar};
+use rayon::prelude::*;
 #[cfg(feature = "geotiff")]
 pub(super) use scan::single;
 use scan::{Miss, Scan, value};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Records a thread reads in one go.
+const CHUNK: usize = 1 << 15;
+
+/// Bytes of a triangle: how many corners it has, and those.
+const RECORD: usize = 13;
 
 /// Names the list of a face goes by.
 const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
@@ -21,7 +29,7 @@ const PART: &str = "part";
 
 pub(super) fn read(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
     let Loaded { vertices, faces, spoken, .. } = load(label, bytes, notes)?;
-    if let Some(at) = vertices.iter().position(|v| !v.is_finite()) {
+    if let Some(at) = vertices.par_iter().with_min_len(CHUNK).position_first(|v| !v.is_finite()) {
         let v = vertices[at];
         let at = format!("{label}, vertex {}", at + 1);
         let help = "correct it, or take the vertex and its faces out";
@@ -98,7 +106,7 @@ fn check_indices(label: &str, faces: &RawFaces, count: usize) -> Result<(), Read
         RawFaces::Triangles(triangles) => triangles.as_flattened(),
         RawFaces::Polygons { corners, .. } => corners,
     };
-    let highest = corners.iter().copied().max().unwrap_or(0);
+    let highest = corners.par_iter().with_min_len(CHUNK).copied().max().unwrap_or(0);
     if (highest as usize) < count {
         return Ok(());
     }
@@ -211,7 +219,9 @@ impl Reader<'_> {
         if little && stride == 24 && wanted == [(0, Scalar::Double), (1, Scalar::Double), (2, Scalar::Double)] {
             let (records, _) = data.as_chunks::<8>();
             let (records, _) = records.as_chunks::<3>();
-            vertices.extend(records.iter().map(|r| DVec3::from(r.map(f64::from_le_bytes))));
+            let read =
+                |r: &[[u8; 8]; 3]| DVec3::new(f64::from_le_bytes(r[0]), f64::from_le_bytes(r[1]), f64::from_le_bytes(r[2]));
+            records.par_iter().with_min_len(CHUNK).map(read).collect_into_vec(vertices);
             return Ok(());
         }
         let offsets = wanted.map(|(i, scalar)| {
@@ -253,19 +263,10 @@ impl Reader<'_> {
             return Err(refuse("the PLY file has no faces that can be read", self.label, figures, help));
         };
         let mut faces = Faces::with_capacity(self.at_most(scan));
-        let mut done = 0;
+        let mut done = 0_u64;
         let usual = self.header.encoding == Encoding::Little && counter.size() == 1 && item.size() == 4;
-        if usual && self.element.properties.len() == 1 {
-            // Triangles as they are mostly written; numbers below zero turn up as ones that are too large.
-            while let [3, rest @ ..] = scan.rest
-                && done < self.element.count
-                && let Some((corners, rest)) = rest.split_first_chunk::<12>()
-            {
-                let (corners, _) = corners.as_chunks::<4>();
-                faces.triangle([corners[0], corners[1], corners[2]].map(u32::from_le_bytes));
-                scan.rest = rest;
-                done += 1;
-            }
+        if usual && self.element.properties.len() == 1 && self.triangles(scan, &mut faces) {
+            done = self.element.count;
         }
         let part = self.element.find(&[PART]);
         let mut corners = Vec::new();
@@ -284,6 +285,28 @@ impl Reader<'_> {
             }
         }
         Ok(faces)
+    }
+
+    /// Faces as they are mostly written: three corners each, of four bytes, and nothing else. False if there are others among them.
+    fn triangles(&self, scan: &mut Scan<'_>, faces: &mut Faces) -> bool {
+        let (records, _) = scan.rest.as_chunks::<RECORD>();
+        let Some(records) = usize::try_from(self.element.count).ok().and_then(|count| records.get(..count)) else { return false };
+        let others = AtomicBool::new(false);
+        let read = |record: &[u8; RECORD]| {
+            if record[0] != 3 {
+                others.store(true, Ordering::Relaxed);
+            }
+            // Numbers below zero turn up as ones that are too large.
+            let (corners, _) = record[1..].as_chunks::<4>();
+            [u32::from_le_bytes(corners[0]), u32::from_le_bytes(corners[1]), u32::from_le_bytes(corners[2])]
+        };
+        records.par_iter().with_min_len(CHUNK).map(read).collect_into_vec(&mut faces.triangles);
+        if others.into_inner() {
+            faces.triangles.clear();
+            return false;
+        }
+        scan.rest = &scan.rest[RECORD * records.len()..];
+        true
     }
 
     /// One face; its part, where it has one.
