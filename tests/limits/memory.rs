@@ -44,7 +44,7 @@ fn work_that_would_not_fit_is_refused() {
         ("info ground.ply", "32MB", "to "),
         ("build road.csv --slope 1:1.5 --terrain ground.ply -o o.ply --finished f.ply", "34MB", "to cut the ground\n"),
         (
-            "build ring.csv --closed --slope 1:1 --height 9 --interval 0.001 -o o.ply",
+            "build ring.csv --closed --slope 1:1 --height 9 --interval 0.0012 -o o.ply",
             "200MB",
             "to build the surface\n  --> ring.csv\n",
         ),
@@ -145,7 +145,7 @@ fn nesting_is_no_matter_of_the_stack() {
         for command in [format!("build {name} --slope 1:1.5 -o o.obj"), format!("info {name}")] {
             let run = site.run(&command);
             assert!(
-                (1..=3).contains(&run.code()),
+                (0..=3).contains(&run.code()),
                 "{command}: {:?} {}",
                 run.status,
                 run.stderr.chars().take(300).collect::<String>()
