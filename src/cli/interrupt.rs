@@ -1,6 +1,13 @@
 //! What happens on Ctrl-C, and on other signals that ask the program to end.
 
+#[cfg(unix)]
+use super::NoThreads;
+use super::exit_code::Code;
 use crate::write::discard_unfinished;
+use anyhow::Context as _;
+
+/// What is said where signals cannot be caught.
+const NOT_INSTALLED: &str = "the handler for interrupts could not be installed";
 
 /// What a shell adds to the number of a signal.
 const SIGNALLED: i32 = 128;
@@ -9,14 +16,38 @@ const SIGNALLED: i32 = 128;
 /// signal. Signals the caller has switched off, as `nohup` does, stay so. A file that grows beyond what the shell allows becomes
 /// an error of the write like a full disk.
 #[cfg(unix)]
-pub(super) fn install() -> std::io::Result<()> {
+pub(super) fn install() -> anyhow::Result<()> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
     let ignored = ignored();
     let asking = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| ignored & (1 << (signal - 1)) == 0);
-    let signals = signal_hook::iterator::Signals::new(asking)?;
+    let signals = signal_hook::iterator::Signals::new(asking).context(NOT_INSTALLED)?;
     // Caught, so that it does not end the process; nobody looks at the flag.
-    signal_hook::flag::register(SIGXFSZ, std::sync::Arc::default())?;
-    std::thread::Builder::new().name("signals".to_owned()).spawn(move || attend(signals)).map(drop)
+    signal_hook::flag::register(SIGXFSZ, std::sync::Arc::default()).context(NOT_INSTALLED)?;
+    let waiting =
+        no_abort(Code::Memory, || std::thread::Builder::new().name("signals".to_owned()).spawn(move || attend(signals)));
+    waiting.map(drop).map_err(|_| NoThreads.into())
+}
+
+/// Does `work`, during which an abort becomes an exit with `code`: where memory is short, the system's library aborts a process
+/// that starts threads. Nothing must be open yet that an exit would leave behind.
+#[cfg(unix)]
+pub(super) fn no_abort<T>(code: Code, work: impl FnOnce() -> T) -> T {
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicBool, Ordering};
+    let working = Arc::new(AtomicBool::new(true));
+    let caught =
+        signal_hook::flag::register_conditional_shutdown(signal_hook::consts::SIGABRT, code as i32, Arc::clone(&working));
+    let done = work();
+    working.store(false, Ordering::SeqCst);
+    // Uncaught again, or never caught, which is no worse.
+    let _ = caught.map(signal_hook::low_level::unregister);
+    done
+}
+
+/// Does `work`.
+#[cfg(not(unix))]
+pub(super) fn no_abort<T>(_: Code, work: impl FnOnce() -> T) -> T {
+    work()
 }
 
 /// Waits for signals.
@@ -52,11 +83,12 @@ fn ignored() -> u64 {
 
 /// On an interrupt: removes files not yet finished and ends the process.
 #[cfg(not(unix))]
-pub(super) fn install() -> Result<(), ctrlc::Error> {
+pub(super) fn install() -> anyhow::Result<()> {
     /// Number of the interrupt on other systems.
     const INTERRUPT: i32 = 2;
-    ctrlc::set_handler(|| {
+    let end = || {
         discard_unfinished();
         std::process::exit(SIGNALLED + INTERRUPT);
-    })
+    };
+    ctrlc::set_handler(end).context(NOT_INSTALLED)
 }

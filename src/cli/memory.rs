@@ -82,6 +82,21 @@ pub(super) fn limit(asked: Option<Memory>) -> Memory {
     memory
 }
 
+/// How many threads of `wanted` the limits have room for, at least one.
+#[cfg(unix)]
+pub(super) fn threads(wanted: usize) -> usize {
+    use rustix::process::{Resource, getrlimit};
+    /// What a thread takes of addresses, most of which are never used, and of memory: its stack.
+    const PER_THREAD: [(Resource, u64); 2] = [(Resource::As, 1 << 26), (Resource::Data, 1 << 22)];
+    let most = PER_THREAD.iter().filter_map(|&(resource, bytes)| Some(getrlimit(resource).current? / bytes)).min();
+    most.map_or(wanted, |most| wanted.min(most as usize)).max(1)
+}
+
+#[cfg(not(unix))]
+pub(super) fn threads(wanted: usize) -> usize {
+    wanted
+}
+
 /// Has the system refuse memory beyond the limit. Without that it is given and, when there is none, the process killed without a
 /// word. Where the system cannot, estimates must do.
 #[cfg(target_os = "linux")]

@@ -22,7 +22,6 @@ pub use memory::out_of_memory;
 use crate::model::Memory;
 use crate::pipeline::{Error, NotPassed};
 use crate::write::{MeshFormat, Target, WriteError};
-use anyhow::Context as _;
 use args::{Command, Running};
 use checks::Checks;
 use console::{Console, Screen};
@@ -85,7 +84,7 @@ pub fn understand(arguments: impl IntoIterator<Item = OsString>) -> Result<(), S
 }
 
 fn dispatch(command: Command) -> anyhow::Result<Code> {
-    interrupt::install().context("the handler for interrupts could not be installed")?;
+    interrupt::install()?;
     match command {
         Command::Build(wanted) => build(&wanted),
         Command::Check(wanted) => check(&wanted),
@@ -180,15 +179,20 @@ fn start(running: &Running) -> anyhow::Result<Memory> {
     let memory = memory::limit(asked);
     // Always a number of our own: what RAYON_NUM_THREADS says does not matter.
     let wanted = threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
-    let begun = match startable(wanted) {
-        0 => None,
-        count => rayon::ThreadPoolBuilder::new().num_threads(count).build_global().ok(),
-    };
-    begun.map(|()| memory).ok_or_else(|| NoThreads.into())
+    let begun = interrupt::no_abort(Code::Memory, || match startable(memory::threads(wanted)) {
+        0 => Err(NoThreads),
+        count => {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build_global();
+            // Until each of them runs.
+            pool.map(|()| drop(rayon::broadcast(|_| ()))).map_err(|_| NoThreads)
+        }
+    });
+    begun?;
+    Ok(memory)
 }
 
-/// How many threads of `wanted` can be had at once. Limits of memory and of processes refuse some or all of them, and a pool
-/// cannot be tried twice.
+/// How many threads of `wanted` can be had at once. Limits of the system refuse some or all of them, and a pool cannot be tried
+/// twice.
 fn startable(wanted: usize) -> usize {
     let gate = Mutex::new(());
     std::thread::scope(|scope| {

@@ -17,8 +17,8 @@ const JOBS: [(&str, &str); 13] = [
     ("o.geojson", "build ring.csv --closed --slope 1:1 --interval 0.05 -q -o /dev/null --lines o.geojson"),
     ("o.html", "build ring.csv --closed --slope 1:1 -q -o /dev/null --report o.html"),
     ("plan.svg", "build ring.csv --closed --slope 1:1 --interval 0.05 -q -o /dev/null --plot plan.svg"),
-    ("r.asc", "sample ring.csv --closed --slope 1:1 --raster r.asc --cell 0.2"),
-    ("p.csv", "sample ring.csv --closed --slope 1:1 --at ground.csv -o p.csv"),
+    ("r.asc", "sample ring.csv --closed --slope 1:1 --raster r.asc --cell 0.2 -q"),
+    ("p.csv", "sample ring.csv --closed --slope 1:1 --at ground.csv -o p.csv -q"),
     ("i.json", "info ground.ply -q --report i.json"),
 ];
 

@@ -62,7 +62,7 @@ impl Site {
         for i in 0..=20 {
             let t = f64::from(i) / 20.0;
             let (x, y) = (size * (0.3 + 0.4 * t), size * (0.5 + 0.05 * (6.0 * t).sin()));
-            let _ = writeln!(road, "{},{},{}", 1000.0 + x, 2000.0 + y, height(x, y) + 2.0 * (9.0 * t).sin());
+            let _ = writeln!(road, "{},{},{}", 1000.0 + x, 2000.0 + y, height(x, y) + 0.01 * size * (9.0 * t).sin());
         }
         fs::write(site.path("road.csv"), road).unwrap();
         let mut ring = String::from("x,y,z\n");

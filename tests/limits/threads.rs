@@ -4,7 +4,7 @@ use super::{Run, Site};
 use std::fs;
 
 const COMMANDS: [&str; 7] = [
-    "build road.csv --slope 1:1.5 --terrain ground.ply -q -o o.ply",
+    "build road.csv --slope 1:1.5 --terrain ground.ply --allow-open -q -o o.ply",
     "sample ring.csv --closed --slope 1:1 --raster o.asc --cell 1",
     "volume ground.ply --to-elevation 100 -q --report o.json",
     "check ground.ply -q --report o.json",
@@ -15,7 +15,11 @@ const COMMANDS: [&str; 7] = [
 
 fn site() -> Site {
     let site = Site::new(30);
-    fs::write(site.path("job.toml"), "input = 'road.csv'\nterrain = 'ground.ply'\nslope = '1:1.5'\noutput = 'j.ply'\n").unwrap();
+    fs::write(
+        site.path("job.toml"),
+        "input = 'road.csv'\nterrain = 'ground.ply'\nslope = '1:1.5'\nallow-open = true\noutput = 'j.ply'\n",
+    )
+    .unwrap();
     site
 }
 
