@@ -408,7 +408,6 @@ fn check_finished(found: &Found, left: &Left, new: &[([u32; 3], Part)]) -> Resul
     }
 }
 
-/// The axes of the figures.
 impl Ground {
     /// What stations are counted along.
     pub fn axes(&self) -> &[Axis] {
