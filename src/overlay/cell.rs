@@ -55,6 +55,12 @@ impl Patch {
     }
 }
 
+/// Longest side of a triangle in plan.
+fn longest_side([a, b, c]: &[DVec3; 3]) -> f64 {
+    let side = |p: &DVec3, q: &DVec3| p.truncate().distance(q.truncate());
+    side(a, b).max(side(b, c)).max(side(c, a))
+}
+
 /// Edges of a ring that come from the clipping triangle have this number or a greater one; others that of their edge.
 pub(super) const CUT: u8 = 3;
 
@@ -105,6 +111,14 @@ impl Ring {
         ring.edges[..3].copy_from_slice(&[0, 1, 2]);
         ring.len = 3;
         ring
+    }
+
+    /// Whether this is more than the sliver that rounding may leave where the patch and `other` only touch: corners are right to
+    /// a few units in the last place of the larger triangle, along a side of either.
+    pub(super) fn has_area(&self, patch: &Patch, other: &[DVec3; 3]) -> bool {
+        const ROUNDING: f64 = 64.0 * f64::EPSILON;
+        let [own, other] = [&patch.corners, other].map(longest_side);
+        self.measure().0 / patch.double_area > ROUNDING * own * other
     }
 
     /// The part where coordinate `K` is positive.

@@ -2,7 +2,7 @@
 
 use super::cell::{CUT, Patch};
 use super::fabric::{Fabric, Linked, double_area};
-use super::tally::{SLIVER, in_chunks};
+use super::tally::in_chunks;
 use super::walker::Walker;
 use crate::kernel::sum::Sum;
 use glam::DVec3;
@@ -54,11 +54,11 @@ pub(super) fn within(mesh: &Fabric, area: &Linked<'_>) -> Loose {
             for t in range {
                 let corners = mesh.piece(t);
                 let patch = Patch::new(corners);
-                walker.over(&patch, |_, ring| {
+                walker.over(&patch, |t, ring| {
                     if ring.edges().iter().all(|&e| e >= CUT) {
                         found.push(corners);
-                    } else if ring.measure().0 <= SLIVER * patch.double_area * patch.double_area {
-                        // Where triangles only touch, nothing is inside.
+                    } else if !ring.has_area(&patch, &area.fabric.corners(t)) {
+                        // They only touch: nothing is inside.
                     } else if let Some((o, rest)) = ring.corners().split_first() {
                         let fan = rest.windows(2).map(|pair| [o, &pair[0], &pair[1]].map(|c| patch.point(c)));
                         found.extend(fan.filter(|t| double_area(*t) > 0.0));

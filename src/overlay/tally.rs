@@ -15,9 +15,6 @@ use std::sync::{Mutex, PoisonError};
 /// Triangles of a piece of work. Fixed, so that sums are taken in the same order on any number of threads.
 const CHUNK: usize = 4096;
 
-/// Share of its triangle up to which a cell may be nothing but rounding, where triangles only touch.
-pub(super) const SLIVER: f64 = 1e-12;
-
 /// Figures of a piece of the work. Heights are those of the mesh laid over, above the other one.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Tally {
@@ -131,7 +128,7 @@ pub(super) fn level(existing: &impl Pieces, elevation: f64) -> Tally {
                 let ground = existing.piece(t);
                 let patch = Patch::new(ground.map(|p| DVec3::new(p.x, p.y, elevation)));
                 let mut sums = Cells::default();
-                sums.add(&Ring::whole(ground.map(|p| patch.corner(p))), &patch, &mut tally);
+                sums.add(&Ring::whole(ground.map(|p| patch.corner(p))), &patch, &ground, &mut tally);
                 sums.finish(&patch, &mut tally);
             }
             tally
@@ -178,11 +175,12 @@ fn lay(corners: [DVec3; 3], walker: &mut Walker<'_>, under: &Linked<'_>, tally: 
     let mut cells = Cells::default();
     walker.over(&patch, |t, ring| {
         tally.cells += 1;
+        let other = under.fabric.corners(t);
         if ring.edges().iter().all(|&e| e >= CUT) {
             // The whole triangle lies inside one of the other mesh, which may be far larger.
-            cells.add(&patch.above_plane(under.fabric.corners(t)), &patch, tally);
+            cells.add(&patch.above_plane(other), &patch, &other, tally);
         } else {
-            cells.add(ring, &patch, tally);
+            cells.add(ring, &patch, &other, tally);
         }
     });
     cells.finish(&patch, tally);
@@ -197,23 +195,22 @@ struct Cells {
 }
 
 impl Cells {
+    /// Adds a cell; `other` is the triangle it has in common with the patch.
     #[inline]
-    fn add(&mut self, ring: &Ring, patch: &Patch, tally: &mut Tally) {
+    fn add(&mut self, ring: &Ring, patch: &Patch, other: &[DVec3; 3], tally: &mut Tally) {
         let scale = patch.double_area;
         let (mut low, mut high) = (0.0_f64, 0.0_f64);
         for c in ring.corners() {
             low = low.min(c[HEIGHT]);
             high = high.max(c[HEIGHT]);
         }
-        let (area, volume) = ring.measure();
-        // Where triangles only touch, rounding may leave a sliver, which is no place of the common area.
-        let counts = area > SLIVER * scale * scale;
-        if counts && high > tally.above.deepest * scale {
+        if high > tally.above.deepest * scale && ring.has_area(patch, other) {
             note_deepest(&mut tally.above, patch, ring, high, 1.0);
         }
-        if counts && -low > tally.below.deepest * scale {
+        if -low > tally.below.deepest * scale && ring.has_area(patch, other) {
             note_deepest(&mut tally.below, patch, ring, low, -1.0);
         }
+        let (area, volume) = ring.measure();
         let parts = if low == 0.0 {
             [[area, volume], [0.0; 2]]
         } else if high == 0.0 {

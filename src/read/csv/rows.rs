@@ -34,8 +34,9 @@ pub(super) fn is_comment(row: &str, delimiter: Option<Delimiter>) -> bool {
     row.starts_with("//") || row.starts_with('%') || (row.starts_with(';') && delimiter != Some(Delimiter::Semicolon))
 }
 
+/// Whether a row has nothing but blanks of any kind (form feeds, no-break spaces) and delimiters.
 pub(super) fn is_blank(row: &str, delimiter: Delimiter) -> bool {
-    row.bytes().all(|b| b == b' ' || b == delimiter.byte() || b == b'\t')
+    row.chars().all(|c| c.is_whitespace() || c == char::from(delimiter.byte()))
 }
 
 /// The rows with data, one per line, with row number and block of each. Runs of blanks become one tab where blanks separate.
@@ -73,4 +74,19 @@ pub(super) fn clean(text: &str, delimiter: Delimiter, header: u32) -> (String, V
         }
     }
     (clean, places)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Page breaks and no-break spaces stand alone in rows of printed lists and of web pages.
+    #[test]
+    fn rows_of_any_blanks_are_blank() {
+        let text = "1 2 3\n\u{a0}\n4 5 6\n\u{c}\r\n7 8 9\n \u{85}\u{b}";
+        let (clean, places) = clean(text, Delimiter::Blanks, 0);
+        assert_eq!(clean, "1\t2\t3\n4\t5\t6\n7\t8\t9\n");
+        assert_eq!(places, [(1, 0), (3, 1), (5, 2)]);
+        assert!(is_blank(", \t,", Delimiter::Comma) && !is_blank(",", Delimiter::Semicolon));
+    }
 }

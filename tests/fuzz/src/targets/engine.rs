@@ -25,7 +25,7 @@ pub(crate) fn run(bytes: &[u8]) {
     let reached = choices.below(3);
     // Coarse, so that meshes are small.
     let tolerance = fine * k.max(1.0) * deep.max(1.0);
-    let interval = [None, Some(deep * k / 2.0), Some(deep * k / 5.0)][choices.below(3)];
+    let levels = [0.0, 3.0, 8.0][choices.below(3)];
     let width = [None, None, None, Some(1.0), Some(3.0), Some(8.0)][choices.below(6)];
     // A road has its slopes outside.
     let side = if width.is_some() { None } else { side };
@@ -34,6 +34,7 @@ pub(crate) fn run(bytes: &[u8]) {
         Err(message) => return telling(&message),
     };
     let (low, high) = line.elevation_range();
+    let interval = (levels > 0.0).then_some((high - low + deep * k) / levels);
     let extent = match (reached, sheet) {
         (0, Sheet::Falling) => Extent::Elevation(low - deep * k),
         (0, Sheet::Rising) => Extent::Elevation(high + deep * k),
