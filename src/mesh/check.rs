@@ -96,12 +96,16 @@ impl HalfEdges {
 
 /// Checks a mesh with the edges `edges`.
 pub fn check(points: &[DVec3], triangles: &[[u32; 3]], edges: &HalfEdges) -> Soundness {
+    check_with(points, triangles, edges, &edges.open())
+}
+
+/// The same where the open edges are known.
+pub fn check_with(points: &[DVec3], triangles: &[[u32; 3]], edges: &HalfEdges, open: &[[u32; 2]]) -> Soundness {
     let plan = |v: u32| points[v as usize].truncate();
-    let open = edges.open();
     let mut soundness = Soundness {
         turned: triangles.par_iter().filter(|t| turn(plan(t[0]), plan(t[1]), plan(t[2])) != Turn::Left).count(),
         pinched: open.windows(2).filter(|w| w[0][0] == w[1][0]).count(),
-        boundary: loops(&open),
+        boundary: loops(open),
         ..Soundness::default()
     };
     let vertices = (0..points.len() as u32).into_par_iter();

@@ -25,6 +25,16 @@ pub(crate) struct Body {
     pub(super) breaks: Vec<(Mark, [u32; 2])>,
 }
 
+/// The order of traces as one number.
+fn order(&(trace, [a, b]): &emit::Traced) -> u128 {
+    let (kind, number) = match trace {
+        Trace::Level(u) => (0, u),
+        Trace::Crease => (1, 0),
+        Trace::Hinge(e) => (2, e),
+    };
+    kind << 96 | u128::from(number) << 64 | u128::from(a) << 32 | u128::from(b)
+}
+
 impl Body {
     pub(super) fn new(network: &Network, design: &Design, slopes: &Slopes, flats: &Flats) -> Self {
         let mut number = vec![u32::MAX; slopes.points.len()];
@@ -52,7 +62,7 @@ impl Body {
                 (kind, [a.min(b), a.max(b)])
             })
             .collect();
-        traces.par_sort_unstable();
+        traces.par_sort_unstable_by_key(order);
         traces.dedup();
         let edge_points: Vec<Vec<emit::EdgePoint>> = slopes
             .edge_points
@@ -91,7 +101,9 @@ impl Body {
         };
         let traces = self.traces.iter().map(|&(trace, ends)| (mark(trace), ends));
         let mut marks: Vec<(Mark, [u32; 2])> = traces.chain(self.breaks.iter().copied()).collect();
-        marks.par_sort_unstable();
+        // Levels and creases are in order, as traces are. Of edges several make a chain.
+        let rest = marks.partition_point(|(mark, _)| *mark < Mark::Hinge(0));
+        marks[rest..].par_sort_unstable();
         marks
     }
 

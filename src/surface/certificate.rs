@@ -59,10 +59,13 @@ pub(crate) fn measure(
     sheet: &Sheet,
     body: &Body,
     edges: &HalfEdges,
+    open: &[[u32; 2]],
     closure: &Closure,
 ) -> Result<Certificate, SurfaceError> {
-    let (soundness, height_max_deviation) =
-        rayon::join(|| check::check(&body.tin.vertices, &body.tin.triangles, edges), || height_deviation(line, design, body));
+    let (soundness, height_max_deviation) = rayon::join(
+        || check::check_with(&body.tin.vertices, &body.tin.triangles, edges, open),
+        || height_deviation(line, design, body),
+    );
     let mut certificate = Certificate {
         paired: true,
         manifold: soundness.manifold(),

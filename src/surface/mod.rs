@@ -355,9 +355,10 @@ impl Task<'_> {
         );
         drop(slopes);
         let heights: Vec<f64> = levels.heights.iter().map(|c| network.sign * c).collect();
+        let open = edges.open();
         let (certificate, lines) = rayon::join(
-            || certificate::measure(line, design, sheet, &body, &edges, &solved.closure),
-            || plane.map_or_else(Vec::new, |_| curves::lines(line, &heights, &body.tin, &marks, &edges.open())),
+            || certificate::measure(line, design, sheet, &body, &edges, &open, &solved.closure),
+            || plane.map_or_else(Vec::new, |_| curves::lines(line, &heights, &body.tin, &marks, &open)),
         );
         let certificate = certificate?;
         drop(edges);
