@@ -1,7 +1,9 @@
 //! Times of reading existing ground in every format: 1 million vertices (or the number given) with 2 million triangles, or as
 //! points. `just bench` prints the table of `docs/performance.md`.
 //!
-//! Every case writes its own file and runs in a process of its own, so that the peak of memory is its own as well.
+//! Every case writes its own file and runs in a process of its own, so that the peak of memory is its own as well. *Bare* is what
+//! the shortest reader takes that we can think of, which checks nothing and keeps to what the file of the case looks like: what
+//! is beyond it is the price of the check sum, of all the dialects, and of saying what is wrong and where.
 #![allow(clippy::print_stdout, reason = "the table is the product")]
 
 use slopegen::read::terrain::{TerrainOptions, read_terrain};
@@ -17,6 +19,12 @@ const CASES: [&str; 10] = ["ply", "obj", "dxf", "asc", "csv", "xyz", "xml", "tif
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
+    if let [bare, path] = &arguments[..]
+        && bare == "bare"
+    {
+        println!("{}", timed(|| bare_sum(Path::new(path))).1);
+        return;
+    }
     if let [path] = &arguments[..]
         && path.contains('.')
     {
@@ -25,14 +33,21 @@ fn main() {
     }
     let count: usize = arguments.first().map_or(1_000_000, |n| n.parse().expect("a number of vertices"));
     println!("milliseconds, wall and (CPU); ground of {count} vertices, coordinates to 0.0001");
-    println!("{:>5} {:>7} {:>13} {:>13} {:>13} {:>10} {:>6}", "case", "file MB", "read", "prepare", "inspect", "triangles", "MB");
+    println!(
+        "{:>5} {:>7} {:>13} {:>13} {:>13} {:>13} {:>10} {:>6}",
+        "case", "file MB", "bare", "read", "prepare", "inspect", "triangles", "MB"
+    );
     let this = std::env::current_exe().expect("own path");
     let folder = tempfile::tempdir().expect("a temporary folder");
     for case in CASES {
         let path = folder.path().join(format!("ground.{case}"));
         write(case, count, &path);
-        let out = std::process::Command::new(&this).arg(&path).output().expect("a run of one case");
-        print!("{}", String::from_utf8_lossy(&out.stdout));
+        let run = |arguments: &[&std::ffi::OsStr]| {
+            let out = std::process::Command::new(&this).args(arguments).output().expect("a run of one case");
+            String::from_utf8_lossy(&out.stdout).into_owned()
+        };
+        let bare = ["ply", "obj", "csv", "xyz"].contains(&case).then(|| run(&["bare".as_ref(), path.as_os_str()]));
+        print!("{}", run(&[path.as_os_str()]).replace("BARE", &format!("{:>13}", bare.unwrap_or_default().trim())));
         std::fs::remove_file(path).expect("the file of the case");
     }
 }
@@ -174,17 +189,72 @@ fn run(path: &Path) {
     let case = path.extension().and_then(|e| e.to_str()).unwrap_or("");
     let size = std::fs::metadata(path).map_or(0, |m| m.len()) as f64 / 1e6;
     let count = prepared.terrain.triangles.len();
-    println!("{case:>5} {size:>7.1} {read:>13} {prepare:>13} {inspect:>13} {count:>10} {peak:>6.0}");
+    println!("{case:>5} {size:>7.1} BARE {read:>13} {prepare:>13} {inspect:>13} {count:>10} {peak:>6.0}");
 }
 
-/// CPU time of the process so far (Linux; elsewhere 0).
+/// Reads a file of [`write`] and nothing else, and checks nothing. The sum keeps the compiler from leaving it out.
+fn bare_sum(path: &Path) -> (f64, u64) {
+    let bytes = std::fs::read(path).expect("the file of the case");
+    let mut vertices: Vec<[f64; 3]> = Vec::new();
+    let mut triangles: Vec<[u32; 3]> = Vec::new();
+    match path.extension().and_then(|e| e.to_str()) {
+        Some("ply") => {
+            let text = String::from_utf8_lossy(&bytes[..400]);
+            let count = |name: &str| -> usize {
+                let from = text.find(name).expect("an element") + name.len();
+                text[from..].split_whitespace().next().and_then(|n| n.parse().ok()).expect("a count")
+            };
+            let end = "end_header\n";
+            let body = &bytes[text.find(end).expect("an end") + end.len()..];
+            let (points, faces) = body.split_at(24 * count("element vertex"));
+            let number = |r: &[u8], i: usize| f64::from_le_bytes(r[8 * i..8 * i + 8].try_into().expect("8 bytes"));
+            vertices.extend(points.chunks_exact(24).map(|r| [number(r, 0), number(r, 1), number(r, 2)]));
+            let corner = |r: &[u8], i: usize| u32::from_le_bytes(r[4 * i + 1..4 * i + 5].try_into().expect("4 bytes"));
+            triangles.extend(faces.chunks_exact(13).map(|r| [corner(r, 0), corner(r, 1), corner(r, 2)]));
+        }
+        _ => {
+            let mut at = 0;
+            while at < bytes.len() {
+                match bytes[at] {
+                    b'f' => triangles.push([0; 3].map(|_: u32| bare_number(&bytes, &mut at).0 as u32)),
+                    b'x' => at += 5,
+                    _ => vertices.push([0.0; 3].map(|_: f64| {
+                        let (mantissa, scale) = bare_number(&bytes, &mut at);
+                        mantissa as f64 / scale
+                    })),
+                }
+                at += 1;
+            }
+        }
+    }
+    (vertices.as_flattened().iter().sum(), triangles.as_flattened().iter().map(|v| u64::from(*v)).sum())
+}
+
+/// The next number at or after `at` that has no sign: its digits, and what they are to be divided by.
+#[inline]
+fn bare_number(bytes: &[u8], at: &mut usize) -> (u64, f64) {
+    while !bytes[*at].is_ascii_digit() {
+        *at += 1;
+    }
+    let (mut value, mut scale, mut point) = (0_u64, 1.0, false);
+    while let Some(&byte) = bytes.get(*at).filter(|b| b.is_ascii_digit() || **b == b'.') {
+        if byte == b'.' {
+            point = true;
+        } else {
+            value = 10 * value + u64::from(byte - b'0');
+            scale *= if point { 10.0 } else { 1.0 };
+        }
+        *at += 1;
+    }
+    (value, scale)
+}
+
+/// CPU time of all threads so far (Linux; elsewhere 0).
 fn cpu_ms() -> f64 {
-    /// Clock ticks in a second, the same on all Linux systems in use.
-    const TICKS: f64 = 100.0;
-    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    let after = stat.rsplit(") ").next().unwrap_or("");
-    let ticks: f64 = after.split(' ').skip(11).take(2).filter_map(|n| n.parse::<f64>().ok()).sum();
-    ticks / TICKS * 1e3
+    let Ok(threads) = std::fs::read_dir("/proc/self/task") else { return 0.0 };
+    let of_thread = |path: &Path| std::fs::read_to_string(path.join("schedstat")).ok();
+    let nanoseconds = threads.flatten().filter_map(|thread| of_thread(&thread.path())?.split(' ').next()?.parse::<f64>().ok());
+    nanoseconds.sum::<f64>() / 1e6
 }
 
 /// Peak of resident memory (Linux; elsewhere 0).

@@ -107,7 +107,7 @@ fn panel(svg: &mut String, name: &str, curves: &[Curve], seconds: [i32; 2]) {
         let _ = writeln!(svg, "<text x=\"-8\" y=\"{:.1}\" text-anchor=\"end\" fill=\"#444\">{label}</text>", y + 4.0);
     }
     let middle = SIDE / 2.0;
-    let _ = writeln!(svg, "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\" fill=\"#444\">vertices</text>", SIDE + 40.0);
+    let _ = writeln!(svg, "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\" fill=\"#444\">vertices (dotted: linear)</text>", SIDE + 40.0);
     let _ = writeln!(
         svg,
         "<text transform=\"translate(-46 {middle}) rotate(-90)\" text-anchor=\"middle\" fill=\"#444\">processor time, s</text>"
@@ -164,7 +164,7 @@ fn growth(points: &[[f64; 2]]) -> Option<f64> {
 /// A power of ten: `0.01`, `1`, `1000`, `10⁶`.
 fn power(exponent: i32) -> String {
     match exponent {
-        -4..=4 => format!("{}", 10_f64.powi(exponent)),
+        -3..=3 => format!("{}", 10_f64.powi(exponent)),
         _ => {
             let digit = |c: char| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(c.to_digit(10).unwrap_or(0) as usize);
             let sign = if exponent < 0 { "⁻" } else { "" };
