@@ -18,7 +18,7 @@ Exit codes:
   2  wrong usage
   3  an input could not be read
   4  an output could not be written
-  5  the result did not pass its checks, or a bound
+  5  the result did not pass its checks, or a bound; a report or the self-test is not what it must be
   6  there is not enough memory
   130  interrupted (129 hung up, 143 terminated)";
 
