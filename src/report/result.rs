@@ -105,8 +105,8 @@ const FIGURES: [&str; 14] = [
     "terrain", "finished",
 ];
 
-/// Keys within them that are names, not figures.
-const NAMES: [&str; 2] = ["chain", "path"];
+/// Keys within them that say where something is along a line or in which file, which the order of the file decides.
+const NAMES: [&str; 3] = ["chain", "path", "station"];
 
 /// First line of what the hash of the result is taken of.
 const HEAD: &str = "slopegen-result/1\n";
