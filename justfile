@@ -34,6 +34,10 @@ doc:
 schema:
     cargo run --example schema
 
+# The hashes of results that `slopegen selftest` expects of this version, on x86_64 Linux with glibc
+hashes:
+    cargo run --example selftest_hashes
+
 # Figures of speed; see docs/performance.md
 bench:
     cargo bench --bench engine

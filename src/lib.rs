@@ -14,6 +14,7 @@ pub mod pipeline;
 pub mod plot;
 pub mod read;
 pub mod report;
+pub mod selftest;
 pub mod setout;
 pub mod sheet;
 pub mod slope;

@@ -5,6 +5,7 @@ mod batch;
 pub mod build;
 pub mod check;
 pub mod design;
+pub mod desk;
 pub mod diff;
 pub mod error;
 mod figures;
@@ -16,13 +17,15 @@ mod rasters;
 mod room;
 pub mod sample;
 mod units;
+pub mod verify;
 pub mod volume;
 mod watch;
 
 pub use batch::{Batch, run_batch};
-pub use build::{BuildJob, Built, build};
+pub use build::{BuildJob, Built, build, build_at};
 pub use check::{CheckJob, Looked, NotPassed, SlopeWish, check};
 pub use design::{DesignError, MOST_LEVELS, Wishes};
+pub use desk::{Bench, Desk};
 pub use diff::{Beyond, Bounds, DiffError, DiffJob, Differed, Most, diff};
 pub use error::{BuriedError, Error};
 pub use ground::read_ground;
@@ -30,13 +33,14 @@ pub use heads::LocalOrigin;
 pub use info::{info, job_info};
 pub use on_ground::GroundInput;
 pub use rasters::Rasters;
-pub use sample::{Area, Lattice, MOST_NODES, SampleJob, Sampled, Where, lattice, sample};
-pub use volume::{Against, Compared, ComparisonError, VolumeJob, volume};
+pub use sample::{Area, Lattice, MOST_NODES, SampleJob, Sampled, Where, lattice, sample, sample_at};
+pub use verify::{NotVerified, Rerun, VerifyJob, verify};
+pub use volume::{Against, Compared, ComparisonError, VolumeJob, volume, volume_at};
 pub use watch::{Observer, WRITING};
 
 use crate::formation::{self, Formation};
 use crate::model::{LengthUnit, Line, Slope};
-use crate::read::{self, ReadOptions, Source};
+use crate::read::{ReadOptions, Source};
 use crate::surface::Watch as _;
 use crate::validate;
 use std::path::PathBuf;
@@ -67,10 +71,10 @@ struct Given {
 }
 
 /// Reads and checks a line; what is worth knowing goes to `observer`.
-fn read_line(input: &LineInput, observer: &watch::Stopwatch<'_>) -> Result<Given, Error> {
+fn read_line(input: &LineInput, desk: Desk<'_>, observer: &watch::Stopwatch<'_>) -> Result<Given, Error> {
     observer.stage_of(watch::READING);
     let options = ReadOptions { memory: observer.memory(), ..input.options.clone() };
-    let mut raw = read::read_line(&input.path, &options)?;
+    let mut raw = desk.line(&input.path, &options)?;
     let unit = input.unit.or(raw.source.unit).unwrap_or_default();
     let converted = units::convert_line(&mut raw, unit);
     raw.notes.extend(converted);

@@ -22,6 +22,7 @@ const ORDER: [&str; 18] = [
     "plot",
     "report",
     "pipeline",
+    "selftest",
     "cli",
 ];
 

@@ -6,6 +6,9 @@ use super::diff::DiffArgs;
 use super::generate::{CompletionsArgs, ManArgs};
 use super::help;
 use super::info::InfoArgs;
+use super::selftest::SelftestArgs;
+use super::verify::VerifyArgs;
+use crate::report::Options;
 use clap::{ArgAction, ArgGroup, Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -49,6 +52,11 @@ pub(super) enum Command {
     /// What a file holds, and what is wrong with it
     #[command(arg_required_else_help = true)]
     Info(Box<InfoArgs>),
+    /// Run a report again and compare
+    #[command(arg_required_else_help = true)]
+    Verify(Box<VerifyArgs>),
+    /// Compute cases with known figures on this machine and compare
+    Selftest(SelftestArgs),
     /// Completions for a shell, to standard output
     #[command(arg_required_else_help = true)]
     Completions(CompletionsArgs),
@@ -172,6 +180,10 @@ pub(super) struct BuildArgs {
 
     #[command(flatten)]
     pub(super) running: Running,
+
+    /// What was given, for the report.
+    #[arg(skip)]
+    pub(super) options: Options,
 }
 
 #[derive(Debug, Args)]
@@ -250,6 +262,10 @@ pub(super) struct VolumeArgs {
 
     #[command(flatten)]
     pub(super) running: Running,
+
+    /// What was given, for the report.
+    #[arg(skip)]
+    pub(super) options: Options,
 }
 
 #[derive(Debug, Args)]

@@ -2,8 +2,9 @@
 
 use super::NoThreads;
 use super::checks::UsageErrors;
+use super::selftest::SelftestFailed;
 use crate::ground::GroundError;
-use crate::pipeline::{Beyond, Error, NotPassed};
+use crate::pipeline::{Beyond, Error, NotPassed, NotVerified};
 use crate::read::ReadError;
 use crate::surface::SurfaceError;
 use std::process::ExitCode;
@@ -35,7 +36,7 @@ impl Code {
         if error.is::<UsageErrors>() {
             return Self::Usage;
         }
-        if error.is::<NotPassed>() || error.is::<Beyond>() {
+        if error.is::<NotPassed>() || error.is::<Beyond>() || error.is::<SelftestFailed>() || error.is::<NotVerified>() {
             return Self::Check;
         }
         if error.is::<NoThreads>() {

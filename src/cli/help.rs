@@ -18,7 +18,7 @@ Exit codes:
   2  wrong usage
   3  an input could not be read
   4  an output could not be written
-  5  the result did not pass its checks, or a bound
+  5  the result did not pass its checks, or a bound; a report or the self-test is not what it must be
   6  there is not enough memory
   130  interrupted (129 hung up, 143 terminated)";
 
@@ -126,6 +126,24 @@ Examples:
 
 Lines, ground, job files and reports are told by name, else by content. Exits with 3 when the file cannot be read.";
 
+const AFTER_VERIFY: &str = "\
+Examples:
+  slopegen verify road.json
+      builds again in memory as the report says, and compares inputs, figures, hashes and the files written
+  slopegen verify archive/road.json --input-dir survey
+      the same with the inputs from a folder
+
+Nothing is written. Exits with 5 if anything differs, and tells what.";
+
+const AFTER_SELFTEST: &str = "\
+Examples:
+  slopegen selftest
+      computes cases with known figures, and compares
+  slopegen selftest --report selftest.json --report selftest.txt --quiet
+      the same for the files of a quality system
+
+Needs no files. Exits with 5 if a figure is beyond its bound, and names it.";
+
 const AFTER_COMPLETIONS: &str = "\
 Examples:
   slopegen completions bash > ~/.local/share/bash-completion/completions/slopegen
@@ -141,7 +159,7 @@ Examples:
       the pages of the program and of all its commands";
 
 /// Longer texts by the command they belong to.
-const TEXTS: [(&str, &str); 9] = [
+const TEXTS: [(&str, &str); 11] = [
     ("build", AFTER_BUILD),
     ("volume", AFTER_VOLUME),
     ("sample", AFTER_SAMPLE),
@@ -149,6 +167,8 @@ const TEXTS: [(&str, &str); 9] = [
     ("batch", AFTER_BATCH),
     ("diff", AFTER_DIFF),
     ("info", AFTER_INFO),
+    ("verify", AFTER_VERIFY),
+    ("selftest", AFTER_SELFTEST),
     ("completions", AFTER_COMPLETIONS),
     ("man", AFTER_MAN),
 ];

@@ -11,7 +11,7 @@ use crate::pipeline::{
 use crate::plot::Drawing;
 use crate::read::terrain::TerrainOptions;
 use crate::read::{InputFormat, Pick, ReadOptions};
-use crate::report::ReportFormat;
+use crate::report::{ReportFormat, RunRecord};
 use crate::write::{LineFormat, MeshFormat, RasterFormat, Target};
 use glam::{DVec2, DVec3};
 use std::ffi::{OsStr, OsString};
@@ -339,6 +339,7 @@ pub(super) fn build_job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
         station_tables,
         local_origin: origin,
         reports,
+        run: Some(RunRecord::new("build", args.options.clone())),
     });
     checks.finish(job)
 }
@@ -403,6 +404,7 @@ pub(super) fn volume_job(args: &VolumeArgs) -> Result<VolumeJob, UsageErrors> {
         reports.push((Target::Stdout, ReportFormat::Text));
     }
     let within = args.within.clone();
+    let run = Some(RunRecord::new("volume", args.options.clone()));
     let unit = checks.unit(args.units.as_ref());
     // A surface that is brought to a level is the first one given, and the existing one.
     let existing = if args.existing.is_some() { &args.existing_surface } else { &args.surface };
@@ -416,7 +418,7 @@ pub(super) fn volume_job(args: &VolumeArgs) -> Result<VolumeJob, UsageErrors> {
         ..Pick::default()
     };
     let picks = [pick(&args.surface, paths[0]), pick(existing, paths[1].or(paths[0]))];
-    checks.finish(against.map(|against| VolumeJob { against, csv_order, picks, unit, within, reports }))
+    checks.finish(against.map(|against| VolumeJob { against, csv_order, picks, unit, within, reports, run }))
 }
 
 /// Number of threads asked for.

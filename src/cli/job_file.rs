@@ -9,6 +9,7 @@ mod nearest;
 use super::args::{Arguments, BuildArgs, Command};
 use super::checks::UsageErrors;
 use super::job;
+use super::record;
 use crate::pipeline::Error;
 use crate::read::ReadError;
 use clap::error::{ContextKind, ErrorKind};
@@ -96,9 +97,16 @@ pub(super) fn is_job(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
 }
 
-fn plain(arguments: &[OsString]) -> Result<Arguments, clap::Error> {
+pub(super) fn plain(arguments: &[OsString]) -> Result<Arguments, clap::Error> {
     let matches = super::command().try_get_matches_from(arguments)?;
-    Arguments::from_arg_matches(&matches)
+    let mut parsed = Arguments::from_arg_matches(&matches)?;
+    let options = |name| matches.subcommand_matches(name).map(|given| record::options(name, given)).unwrap_or_default();
+    match &mut parsed.command {
+        Command::Build(args) => args.options = options(BUILD),
+        Command::Volume(args) => args.options = options("volume"),
+        _ => {}
+    }
+    Ok(parsed)
 }
 
 /// The job file that stands in the place of the line, and what else was given.
@@ -206,6 +214,9 @@ impl JobFile {
         if args.output.is_empty() {
             args.output.push(self.folder.join(job::default_output(&args.input.input)).into_os_string());
         }
+        let shown = |word: &OsString| word.to_string_lossy().into_owned();
+        args.options.insert(INPUT.to_owned(), vec![shown(&input.word)]);
+        args.options.insert("output".to_owned(), args.output.iter().map(shown).collect());
         Ok(())
     }
 

@@ -15,6 +15,9 @@ mod job;
 mod job_file;
 mod memory;
 mod number;
+mod record;
+mod selftest;
+mod verify;
 
 pub use args::command;
 pub use memory::out_of_memory;
@@ -75,7 +78,8 @@ pub fn understand(arguments: impl IntoIterator<Item = OsString>) -> Result<(), S
         Command::Volume(wanted) => job::volume_job(wanted).map(drop),
         Command::Sample(wanted) => job::sample_job(wanted).map(drop),
         // These look at files at once, or have nothing to look at.
-        Command::Batch(_) | Command::Diff(_) | Command::Info(_) | Command::Completions(_) | Command::Man(_) => Ok(()),
+        Command::Batch(_) | Command::Diff(_) | Command::Info(_) | Command::Verify(_) => Ok(()),
+        Command::Selftest(_) | Command::Completions(_) | Command::Man(_) => Ok(()),
     };
     understood.map_err(|error| match file {
         Some(file) => file.located(&error.into()),
@@ -93,6 +97,8 @@ fn dispatch(command: Command) -> anyhow::Result<Code> {
         Command::Batch(wanted) => batch::run(&wanted),
         Command::Diff(wanted) => diff::run(&wanted),
         Command::Info(wanted) => info::run(&wanted),
+        Command::Verify(wanted) => verify::run(&wanted),
+        Command::Selftest(wanted) => selftest::run(&wanted),
         Command::Completions(wanted) => Ok(generate::completions(&wanted).map(|()| Code::Done)?),
         Command::Man(wanted) => generate::man(&wanted).map(|()| Code::Done),
     }

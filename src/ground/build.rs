@@ -166,7 +166,7 @@ impl<'a> Site<'a> {
         let patch = self.patch(&shape, whole);
         let mut notes = inspected(&patch, &self.terrain, self.label)?;
         let stations = Stations::new(axes(self.line, &self.terrain.frame), options.stations)?;
-        let mut feeder = Feeder::new(&shape, &stations, options.keep);
+        let mut feeder = Feeder::new(&shape, &stations, options.keep, whole);
         let mut works = Flood::run(&shape, &patch, whole, &mut feeder);
         let fed = feeder.finish();
         let uncovered = Uncovered::find(&shape, &fed);

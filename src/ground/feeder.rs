@@ -6,6 +6,7 @@ use super::shape::Shape;
 use super::tally::{Tally, split};
 use super::works::Sink;
 use super::{Corner, Piece, Pieces, SectionFigures, Sections, Stations};
+use crate::model::Part;
 
 /// What the feeder has gathered.
 pub(crate) struct Fed {
@@ -28,11 +29,23 @@ pub(super) struct Feeder<'a> {
     pieces: Option<Pieces>,
     covered: Vec<f64>,
     corners: Vec<Corner>,
+    /// Whether the design counts above and below ground alike, whatever its part: pits and mounds.
+    whole: bool,
+}
+
+/// A height without the sign its part cannot have: rounding.
+fn signed(part: Part, height: f64) -> f64 {
+    match part {
+        Part::FillSlope => height.max(0.0),
+        Part::CutSlope => height.min(0.0),
+        Part::Platform | Part::Ground => height,
+    }
 }
 
 impl<'a> Feeder<'a> {
-    pub(super) fn new(shape: &'a Shape, stations: &'a Stations, keep: bool) -> Self {
+    pub(super) fn new(shape: &'a Shape, stations: &'a Stations, keep: bool, whole: bool) -> Self {
         Self {
+            whole,
             shape,
             stations,
             pieces: keep.then(Pieces::default),
@@ -67,24 +80,25 @@ impl<'a> Feeder<'a> {
 impl Sink for Feeder<'_> {
     fn take(&mut self, a: u32, corners: &[cell::Corner]) {
         let shape = self.shape;
+        let (part, whole) = (shape.parts[a as usize], self.whole);
+        let height = |c: &cell::Corner| if whole { c.h } else { signed(part, c.h) };
         self.corners.clear();
         let axis = if shape.foot_of[a as usize] != NONE {
             let foot = shape.feet[shape.foot_of[a as usize] as usize];
-            self.corners.extend(corners.iter().map(|c| Corner { at: c.at, height: c.h, station: foot.station(c.at) }));
+            self.corners.extend(corners.iter().map(|c| Corner { at: c.at, height: height(c), station: foot.station(c.at) }));
             Some(foot.chain)
         } else if let Some((chain, stations)) = shape.road(a) {
             let [p, q, r] = shape.plan(a);
             let plane = [p.extend(stations[0]), q.extend(stations[1]), r.extend(stations[2])];
             let station = |at| cell::on_plane(&plane, at);
-            self.corners.extend(corners.iter().map(|c| Corner { at: c.at, height: c.h, station: station(c.at) }));
+            self.corners.extend(corners.iter().map(|c| Corner { at: c.at, height: height(c), station: station(c.at) }));
             Some(chain)
         } else {
-            self.corners.extend(corners.iter().map(|c| Corner { at: c.at, height: c.h, station: 0.0 }));
+            self.corners.extend(corners.iter().map(|c| Corner { at: c.at, height: height(c), station: 0.0 }));
             None
         };
         // Over the first vertex of a ring stations begin again.
         let corners_of_piece = std::mem::take(&mut self.corners);
-        let part = shape.parts[a as usize];
         let ring = axis.and_then(|axis| self.stations.axes().get(axis as usize)).filter(|axis| axis.closed);
         let length = ring.map_or(f64::INFINITY, |axis| axis.length);
         if corners_of_piece.iter().any(|corner| corner.station > length) {

@@ -161,7 +161,7 @@ impl<'a> Tally<'a> {
 
     fn look_deep(&mut self, piece: &Piece<'_>) {
         for corner in piece.corners {
-            let height = signed(piece.part, corner.height);
+            let height = corner.height;
             let (deepest, depth) = if height < 0.0 { (&mut self.deepest[0], -height) } else { (&mut self.deepest[1], height) };
             if depth > deepest.map_or(0.0, |deepest| deepest.depth) {
                 let station = piece.axis.map(|axis| (axis, corner.station));
@@ -210,24 +210,15 @@ impl Sums {
     }
 }
 
-/// A height without the sign its part cannot have.
-fn signed(part: Part, height: f64) -> f64 {
-    match part {
-        Part::FillSlope => height.max(0.0),
-        Part::CutSlope => height.min(0.0),
-        Part::Platform | Part::Ground => height,
-    }
-}
-
 /// Adds a convex polygon to the sums of its part in a row.
 fn put(row: &mut [Sums; 3], part: Part, corners: &[Corner]) {
     let Some(sums) = row.get_mut(part as usize) else { return };
     let Some((apex, others)) = corners.split_first() else { return };
-    let h0 = signed(part, apex.height);
+    let h0 = apex.height;
     for pair in others.windows(2) {
         // About the first corner: what is far from the origin loses nothing.
         let area = 0.5 * (pair[0].at - apex.at).perp_dot(pair[1].at - apex.at);
-        let h = [h0, signed(part, pair[0].height), signed(part, pair[1].height)];
+        let h = [h0, pair[0].height, pair[1].height];
         let minus = h.map(|v| -v);
         let level = if h == [0.0; 3] { area } else { 0.0 };
         sums.add([

@@ -3,6 +3,7 @@
 pub mod box_tree;
 pub mod dd;
 pub mod frame;
+pub mod hash;
 pub mod orientation;
 pub mod plan_box;
 pub mod segment;

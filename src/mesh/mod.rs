@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod drape;
+pub mod fingerprint;
 pub mod inside;
 pub mod polygon;
 pub mod quality;

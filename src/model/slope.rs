@@ -12,6 +12,9 @@ impl Slope {
     /// against the horizontal (0.006° to 89.994°) is lost among the errors of the coordinates.
     pub const ACCEPTED: RangeInclusive<f64> = 1e-4..=1e4;
 
+    /// As much rise as run.
+    pub const EVEN: Self = Self(1.0);
+
     /// A slope of `ratio` rise per run; `None` unless it is positive and finite.
     pub fn from_ratio(ratio: f64) -> Option<Self> {
         (ratio > 0.0 && ratio.is_finite()).then_some(Self(ratio))

@@ -4,15 +4,16 @@ use super::error::NoStation;
 use super::heads::{LocalOrigin, Names, coarse, has_colours, heights_over, is_local, local_origin};
 use super::watch::{CHECKING, Observer, PREPARING, READING, READING_GROUND, Stopwatch, WRITING};
 use super::{
-    BuriedError, Error, Given, GroundInput, LineInput, Rasters, Wishes, check_steepness, figures, on_ground, rasters, read_line,
-    room,
+    BuriedError, Desk, Error, Given, GroundInput, LineInput, Rasters, Wishes, check_steepness, desk, figures, on_ground, rasters,
+    read_line, room,
 };
 use crate::ground::{Pieces, Stations, Tallied, axes};
 use crate::kernel::frame::Frame;
+use crate::mesh::fingerprint::fingerprint;
 use crate::model::{Bulking, Line, LineFeature, Note, Sheet, Terrain, Tin};
 use crate::plot::{self, Drawing, OnGround, Scene};
 use crate::read::Source;
-use crate::report::{CrossfallFigures, Report, ReportFormat, write_station_table};
+use crate::report::{CrossfallFigures, Report, ReportFormat, ResultFigures, RunRecord, write_station_table};
 use crate::setout::{self, Stake};
 use crate::slope::levels::LEVEL_SNAP;
 use crate::surface::{self, Watch as _};
@@ -59,6 +60,8 @@ pub struct BuildJob {
     pub local_origin: Option<LocalOrigin>,
     /// Where reports go.
     pub reports: Vec<(Target, ReportFormat)>,
+    /// What was asked for, for reports in JSON.
+    pub run: Option<RunRecord>,
 }
 
 /// What was built.
@@ -91,16 +94,25 @@ enum Content {
 /// # Errors
 /// [`Error`]; nothing has been written then, except what already went down a stream.
 pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
+    build_at(Desk::Disk, job, observer)
+}
+
+/// The same with files from elsewhere.
+///
+/// # Errors
+/// As [`build`].
+pub fn build_at(desk: Desk<'_>, job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     let watch = Stopwatch::new(observer);
     let (targets, contents): (Vec<Target>, Vec<Content>) = wanted(job).into_iter().unzip();
     let ground_path = job.ground.as_ref().map(|ground| ground.path.as_path());
     let inputs: Vec<&Path> = std::iter::once(job.input.path.as_path()).chain(ground_path).collect();
-    let mut outputs = Outputs::open(&targets, &inputs)?;
+    let record = desk.records(&job.reports);
+    let mut outputs = desk.open(&targets, &inputs, record)?;
 
-    let Given { line, source, unit } = read_line(&job.input, &watch)?;
+    let Given { line, source, unit } = read_line(&job.input, desk, &watch)?;
     check_sections(job, &line)?;
     let Product { design, finished, lines, survey, ground, mut report } = match &job.ground {
-        Some(ground) => on_ground::build(job, ground, &line, &source, unit, &watch)?,
+        Some(ground) => on_ground::build(desk, job, ground, &line, &source, unit, &watch)?,
         None => alone(job, &line, &source, &watch)?,
     };
     report.units = unit.into();
@@ -154,7 +166,8 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     if !job.plots.is_empty() || job.reports.iter().any(|(_, format)| format.draws()) {
         room::for_drawings(&design, &source.label, &watch.memory())?;
     }
-    let mut put = |index: usize, report: &Report| -> Result<Delivery, WriteError> {
+    let is_json = |index: usize| matches!(contents[index], Content::Report(ReportFormat::Json));
+    let put = |outputs: &mut Outputs, index: usize, report: &Report| -> Result<Delivery, WriteError> {
         outputs.write(index, |out| match contents[index] {
             Content::Mesh(format) => format.write(out, &design, &Head { depths: depths.as_deref(), ..about(format) }),
             Content::Finished(format) => {
@@ -177,16 +190,38 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
             Content::Stakes => write_stakes(out, &stakes),
             Content::Stations => write_station_table(out, report),
             Content::Plot(drawing) => Ok(out.write_all(plot::file(&scene, drawing, &job.sections).as_bytes())?),
-            Content::Report(format) => format.write(out, report, &scene, &job.sections),
+            Content::Report(format) => {
+                let own = desk::run_at(&report.run, &targets[index], is_json(index));
+                let own = own.map(|run| Report { run: Some(run), ..report.clone() });
+                format.write(out, own.as_ref().unwrap_or(report), &scene, &job.sections)
+            }
         })
     };
-    for index in in_order(&targets, &contents) {
-        if matches!(contents[index], Content::Report(_)) {
-            stamp(&mut report, &watch);
+    // What a report in JSON tells of the others is known when they are written; hashes of meshes are taken meanwhile.
+    let (before, after) = in_order(&targets, &contents);
+    let mut hashes = (None, None);
+    rayon::in_place_scope(|scope| {
+        if record {
+            let hashes = &mut hashes;
+            let (design, finished) = (&design, finished.as_ref());
+            scope.spawn(move |_| *hashes = (Some(fingerprint(design)), finished.map(fingerprint)));
         }
-        put(index, &report)?;
+        before.into_iter().try_for_each(|index| {
+            stamp(&mut report, &watch);
+            put(&mut outputs, index, &report).map(drop)
+        })
+    })?;
+    if record {
+        report.run = job.run.clone();
+        let mut result = ResultFigures::of(hashes.0, hashes.1, &report).map_err(desk::no_record)?;
+        result.outputs = desk::files(&outputs, &targets, is_json);
+        report.result = Some(result);
     }
-    outputs.commit()?;
+    for index in after {
+        stamp(&mut report, &watch);
+        put(&mut outputs, index, &report)?;
+    }
+    desk.commit(outputs)?;
     stamp(&mut report, &watch);
     let written = targets.into_iter().filter(|target| !target.is_stream()).collect();
     Ok(Built { report, written })
@@ -320,15 +355,18 @@ fn wanted(job: &BuildJob) -> Vec<(Target, Content)> {
     all
 }
 
-/// The order in which outputs are written. Files first, because they can still be taken back; standard output last; of each kind
-/// reports last, because they tell how long the rest took.
-fn in_order(targets: &[Target], contents: &[Content]) -> Vec<usize> {
+/// The order in which outputs are written, up to the first report in JSON and from there. Files first, because they can still be taken
+/// back; standard output last; of each kind reports last, because they tell how long the rest took, those in JSON behind the others.
+fn in_order(targets: &[Target], contents: &[Content]) -> (Vec<usize>, Vec<usize>) {
+    let is_json = |i: usize| matches!(contents[i], Content::Report(ReportFormat::Json));
     let mut order: Vec<usize> = (0..targets.len()).collect();
     order.sort_by_key(|&i| {
         let stdout = targets[i] == Target::Stdout;
-        (stdout, targets[i].is_stream(), matches!(contents[i], Content::Report(_)))
+        (stdout, targets[i].is_stream(), matches!(contents[i], Content::Report(_)), is_json(i))
     });
-    order
+    let first = order.iter().position(|&i| is_json(i)).unwrap_or(order.len());
+    let after = order.split_off(first);
+    (order, after)
 }
 
 /// Writes the times into the report.

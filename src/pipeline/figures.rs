@@ -65,6 +65,8 @@ pub(super) fn report(line: &Line, source: &Source, design: &Design, surface: &Su
         terrain: None,
         finished: None,
         warnings,
+        run: None,
+        result: None,
         timing: Timing::default(),
     }
 }

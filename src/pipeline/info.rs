@@ -247,7 +247,7 @@ fn of_document(path: &Path, document: &Document) -> InfoReport {
 
 /// A job file as its reader tells of it; `defects`: what is wrong with it.
 pub fn job_info(path: &Path, bytes: &[u8], settings: Vec<Setting>, defects: Vec<String>) -> InfoReport {
-    let (sha256, sound) = (crate::read::sha256(bytes), defects.is_empty());
+    let (sha256, sound) = (crate::kernel::hash::sha256(bytes), defects.is_empty());
     let path_given = path.display().to_string();
     let file = FileFigures { path: path_given, format: "job".to_owned(), bytes: bytes.len() as u64, sha256: Some(sha256) };
     let uses = vec![UseRow { purpose: "job", name: None, sound, readable: true, defects, notes: Vec::new() }];

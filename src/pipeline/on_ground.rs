@@ -2,7 +2,7 @@
 
 use super::build::{BuildJob, Product, Survey, missed_levels};
 use super::watch::Stopwatch;
-use super::{Error, Wishes, check_steepness, figures, ground, room};
+use super::{Desk, Error, Wishes, check_steepness, figures, ground, room};
 use crate::ground::{Options, Site};
 use crate::model::{Design, Extent, LengthUnit, Line, Sheet, Side, Terrain};
 use crate::read::terrain::TerrainOptions;
@@ -25,6 +25,7 @@ pub struct GroundInput {
 
 /// Builds on existing ground.
 pub(super) fn build(
+    desk: Desk<'_>,
     job: &BuildJob,
     input: &GroundInput,
     line: &Line,
@@ -33,7 +34,7 @@ pub(super) fn build(
     watch: &Stopwatch<'_>,
 ) -> Result<Product, Error> {
     let (terrain, ground_source) =
-        ground::read_ground(&input.path, &input.options, Some(unit), watch).map_err(|error| match error {
+        ground::read_ground_at(desk, &input.path, &input.options, Some(unit), watch).map_err(|error| match error {
             // The columns of the ground have an option of their own.
             Error::Read(ReadError::Content { what, at, figures, help }) => {
                 ReadError::Content { what, at, figures, help: help.replace("--csv-order", "--terrain-order") }.into()

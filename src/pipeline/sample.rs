@@ -1,13 +1,13 @@
 //! Exact heights of the sheet of the given line, at points or on a grid.
 
 use super::watch::{Observer, Stopwatch, WRITING};
-use super::{Error, Given, LineInput, check_steepness, rasters, read_line, room};
+use super::{Desk, Error, Given, LineInput, check_steepness, rasters, read_line, room};
 use crate::model::{Defect, Defects, Line, Sheet, Slope};
-use crate::read::{self, RawPoints, ReadError, ReadOptions};
+use crate::read::{RawPoints, ReadError, ReadOptions};
 use crate::sheet::{Grid, Heights};
 use crate::surface::Watch as _;
 use crate::validate::INPUT_LIMIT;
-use crate::write::{Anchor, GridLayout, Outputs, RasterFormat, Target, write_points};
+use crate::write::{Anchor, GridLayout, RasterFormat, Target, write_points};
 use glam::DVec2;
 use std::path::PathBuf;
 
@@ -82,18 +82,26 @@ pub struct Sampled {
 /// # Errors
 /// [`Error`]; nothing has been written then, except what already went down a stream.
 pub fn sample(job: &SampleJob, observer: &dyn Observer) -> Result<Sampled, Error> {
+    sample_at(Desk::Disk, job, observer)
+}
+
+/// The same with files from elsewhere.
+///
+/// # Errors
+/// As [`sample`].
+pub fn sample_at(desk: Desk<'_>, job: &SampleJob, observer: &dyn Observer) -> Result<Sampled, Error> {
     let watch = Stopwatch::new(observer);
     let mut inputs = vec![job.input.path.clone()];
     if let Where::Points { path, .. } = &job.at {
         inputs.push(path.clone());
     }
-    let mut outputs = Outputs::open(std::slice::from_ref(&job.output), &inputs)?;
-    let Given { line, source, unit } = read_line(&job.input, &watch)?;
+    let mut outputs = desk.open(std::slice::from_ref(&job.output), &inputs, false)?;
+    let Given { line, source, unit } = read_line(&job.input, desk, &watch)?;
     check_steepness(&line, &source, job.slope)?;
     let heights = match &job.at {
         Where::Points { path, options } => {
             let options = ReadOptions { memory: watch.memory(), ..options.clone() };
-            let points = read::read_points(path, &options).map_err(for_points)?;
+            let points = desk.points(path, &options).map_err(for_points)?;
             room::for_points(points.points.len(), points.source.bytes, &points.source.label, &watch.memory())?;
             points.notes.iter().for_each(|note| watch.note(note));
             check_points(&points)?;
@@ -122,7 +130,7 @@ pub fn sample(job: &SampleJob, observer: &dyn Observer) -> Result<Sampled, Error
             heights.len()
         }
     };
-    outputs.commit()?;
+    desk.commit(outputs)?;
     Ok(Sampled { heights })
 }
 

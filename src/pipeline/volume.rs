@@ -1,18 +1,21 @@
 //! Cut and fill between two surfaces that are given.
 
+use super::ground::read_ground_at;
 use super::watch::{CHECKING, Named, Observer, Stopwatch, WRITING};
-use super::{Error, figures, read_ground, room, units};
+use super::{Desk, Error, desk, figures, room, units};
 use crate::kernel::sum::Sum;
 use crate::mesh::inside::inside;
 use crate::model::{Chain, Defect, Defects, LengthUnit, Note, Role, Terrain};
 use crate::overlay::{self, Between, OverlayError, Surface};
 use crate::read::terrain::TerrainOptions;
-use crate::read::{self, ColumnOrder, Pick, ReadError, ReadOptions, Source};
+use crate::read::{ColumnOrder, Pick, ReadError, ReadOptions, Source};
 use crate::report::between::{BetweenDepths, BetweenReference, BetweenReport, BetweenTiming, BetweenVolumes, MeshFigures};
-use crate::report::{Balance, Detail, Input, METHOD, METHOD_TEXT, ReportFormat, SCHEMA, SIGN_RULE, Tool, Warning};
+use crate::report::{
+    Balance, Detail, Input, METHOD, METHOD_TEXT, ReportFormat, ResultFigures, RunRecord, SCHEMA, SIGN_RULE, Tool, Warning,
+};
 use crate::surface::Watch as _;
 use crate::validate;
-use crate::write::{Outputs, Target};
+use crate::write::Target;
 use glam::DVec2;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -40,6 +43,19 @@ pub struct VolumeJob {
     pub within: Option<PathBuf>,
     /// Where reports go.
     pub reports: Vec<(Target, ReportFormat)>,
+    /// What was asked for, for reports in JSON.
+    pub run: Option<RunRecord>,
+}
+
+impl VolumeJob {
+    /// The files it reads.
+    pub(super) fn inputs(&self) -> Vec<PathBuf> {
+        let (design, existing) = match &self.against {
+            Against::Existing { design, existing } => (Some(design), existing),
+            Against::Elevation { existing, .. } => (None, existing),
+        };
+        design.into_iter().chain([existing]).chain(&self.within).cloned().collect()
+    }
 }
 
 /// What is compared.
@@ -120,20 +136,29 @@ fn apart(design: &[DVec2; 2], existing: &[DVec2; 2]) -> &'static str {
 /// # Errors
 /// [`Error`]; nothing has been written then, except what already went down a stream.
 pub fn volume(job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Error> {
+    volume_at(Desk::Disk, job, observer)
+}
+
+/// The same with files from elsewhere.
+///
+/// # Errors
+/// As [`volume`].
+pub fn volume_at(desk: Desk<'_>, job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Error> {
     let watch = Stopwatch::new(observer);
     let targets: Vec<Target> = job.reports.iter().map(|(target, _)| target.clone()).collect();
     let (design, existing) = match &job.against {
         Against::Existing { design, existing } => (Some(design), existing),
         Against::Elevation { existing, .. } => (None, existing),
     };
-    let inputs: Vec<PathBuf> = design.into_iter().chain([existing]).chain(&job.within).cloned().collect();
-    let mut outputs = Outputs::open(&targets, &inputs)?;
+    let inputs = job.inputs();
+    let record = desk.records(&job.reports);
+    let mut outputs = desk.open(&targets, &inputs, record)?;
 
     let [of_design, of_existing] = &job.picks;
     let read = |path: &Path, pick: &Pick, unit, surface: Surface| {
         let options =
             TerrainOptions { csv_order: job.csv_order.clone(), pick: pick.clone(), unit: job.unit, ..TerrainOptions::default() };
-        read_ground(path, &options, unit, &Named { watch: &watch, name: surface.name() })
+        read_ground_at(desk, path, &options, unit, &Named { watch: &watch, name: surface.name() })
     };
     let design = design.map(|path| read(path, of_design, job.unit, Surface::Design)).transpose()?;
     watch.holds(design.as_ref().map_or(0, |(ground, _)| room::of_ground(ground)));
@@ -149,7 +174,7 @@ pub fn volume(job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Erro
     let triangles = existing.0.triangles.len() + design.as_ref().map_or(0, |(ground, _)| ground.triangles.len());
     watch.holds(room::of_ground(&existing.0) + design.as_ref().map_or(0, |(ground, _)| room::of_ground(ground)));
     room::for_overlay(triangles, &existing.1.label, &watch.memory())?;
-    let area = job.within.as_ref().map(|path| rings(path, unit, &watch)).transpose()?;
+    let area = job.within.as_ref().map(|path| rings(desk, path, unit, &watch)).transpose()?;
 
     watch.stage_of(VOLUMES);
     let within = area.as_ref().map(|(area, _)| area);
@@ -177,6 +202,8 @@ pub fn volume(job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Erro
         areas: found.areas.into(),
         depths: BetweenDepths::from(&found),
         warnings: warnings(&watch.notes(), &found),
+        run: None,
+        result: None,
         timing: BetweenTiming::default(),
     };
     watch.stage_of(WRITING);
@@ -185,10 +212,26 @@ pub fn volume(job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Erro
         volume: watch.seconds(|stage| stage == VOLUMES),
         total: watch.total(),
     };
-    for (index, (_, format)) in job.reports.iter().enumerate() {
-        outputs.write(index, |out| format.write_between(out, &report))?;
+    if record {
+        report.run = job.run.clone();
+        report.result = Some(ResultFigures::of(None, None, &report).map_err(desk::no_record)?);
     }
-    outputs.commit()?;
+    // Reports in JSON last: they tell of the others.
+    let is_json = |index: usize| job.reports[index].1 == ReportFormat::Json;
+    let mut order: Vec<usize> = (0..targets.len()).collect();
+    order.sort_by_key(|&index| is_json(index));
+    for index in order {
+        if let (true, Some(result)) = (is_json(index), &mut report.result) {
+            result.outputs = desk::files(&outputs, &targets, is_json);
+        }
+        let own = desk::run_at(&report.run, &targets[index], is_json(index))
+            .map(|run| BetweenReport { run: Some(run), ..report.clone() });
+        outputs.write(index, |out| job.reports[index].1.write_between(out, own.as_ref().unwrap_or(&report)))?;
+    }
+    if let Some(result) = &mut report.result {
+        result.outputs = desk::files(&outputs, &targets, is_json);
+    }
+    desk.commit(outputs)?;
     Ok(Compared { report, written: targets.into_iter().filter(|target| !target.is_stream()).collect() })
 }
 
@@ -284,9 +327,9 @@ fn warnings(notes: &[Note], found: &Between) -> Vec<Warning> {
 }
 
 /// The area inside the rings of a file. Elevations do not matter.
-fn rings(path: &Path, unit: LengthUnit, watch: &Stopwatch<'_>) -> Result<(Terrain, Source), Error> {
+fn rings(desk: Desk<'_>, path: &Path, unit: LengthUnit, watch: &Stopwatch<'_>) -> Result<(Terrain, Source), Error> {
     watch.stage_of(CHECKING);
-    let mut raw = read::read_line(path, &ReadOptions { unit: Some(unit), memory: watch.memory(), ..ReadOptions::default() })?;
+    let mut raw = desk.line(path, &ReadOptions { unit: Some(unit), memory: watch.memory(), ..ReadOptions::default() })?;
     if let Some(note) = units::convert_line(&mut raw, unit) {
         watch.note(&note);
     }

@@ -24,8 +24,8 @@ pub use error::ReadError;
 pub use inventory::{Held, Inventory, inventory};
 pub use pick::Pick;
 
+use crate::kernel::hash::sha256;
 use crate::model::{LengthUnit, Memory, Note};
-use sha2::{Digest, Sha256};
 use std::fmt;
 use std::io::Read;
 use std::path::Path;
@@ -331,9 +331,4 @@ fn source(label: &str, format: InputFormat, bytes: &[u8]) -> Source {
     let size = bytes.len() as u64;
     let sha256 = sha256(bytes);
     Source { label: label.to_owned(), format, bytes: size, sha256, crs: None, kind: CoordinateKind::Unknown, unit: None }
-}
-
-/// SHA-256 of some bytes, in lower-case hexadecimal digits.
-pub fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }

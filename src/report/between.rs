@@ -2,6 +2,7 @@
 
 use super::SCHEMA;
 use super::model::{Input, Tool, Units, Warning};
+use super::result::{ResultFigures, RunRecord};
 use super::volumes::{Balance, METHOD, METHOD_TEXT, SIGN_RULE, mean};
 use crate::overlay::{Areas, Between, Depth};
 use schemars::JsonSchema;
@@ -30,6 +31,12 @@ pub struct BetweenReport {
     pub depths: BetweenDepths,
     /// What the reader should know.
     pub warnings: Vec<Warning>,
+    /// What was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub run: Option<RunRecord>,
+    /// Hashes of what came out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub result: Option<ResultFigures>,
     /// Seconds spent. The one part that differs from run to run.
     pub timing: BetweenTiming,
 }
@@ -288,6 +295,8 @@ pub(super) mod testing {
                 message: "3.25 square units of the design do not lie over the existing surface".into(),
                 details: BTreeMap::new(),
             }],
+            run: Some(crate::report::result::testing::run("volume")),
+            result: Some(crate::report::result::testing::result(false)),
             timing: BetweenTiming { read: 0.125, volume: 0.5, total: 0.75 },
         }
     }
@@ -302,6 +311,7 @@ pub(super) mod testing {
         report.areas = BetweenAreas { cut: 1.0, ..BetweenAreas::default() };
         report.depths = BetweenDepths::default();
         report.warnings.clear();
+        (report.run, report.result) = (None, None);
         report
     }
 }

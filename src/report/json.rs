@@ -74,7 +74,7 @@ mod tests {
         let golden = include_str!("../../tests/golden/between.json");
         crate::report::testing::compare(&write(crate::report::between::testing::full()), golden, "between.json");
         let least = write(crate::report::between::testing::least());
-        for key in ["\"cells\"", "_at", "within", "path\": \"site", "null"] {
+        for key in ["\"run\"", "\"result\"", "\"cells\"", "_at", "within", "path\": \"site", "null"] {
             assert!(!least.contains(key), "{key} in {least}");
         }
     }

@@ -11,9 +11,12 @@ pub mod info;
 pub mod json;
 pub mod model;
 mod page;
+pub mod result;
 pub mod schema;
+pub mod selftest;
 pub mod tables;
 pub mod text;
+pub mod verify;
 pub mod volumes;
 
 #[cfg(test)]
@@ -30,8 +33,11 @@ pub use ground::{
 pub use info::{INFO_SCHEMA, InfoReport, render_info};
 pub use json::write_json;
 pub use model::*;
+pub use result::{Options, OutputFile, ResultFigures, RunRecord, platform};
+pub use selftest::{CaseRow, FigureRow, HashRow, SELFTEST_SCHEMA, SelftestReport, render_selftest};
 pub use tables::write_station_table;
 pub use text::{write_between, write_between_markdown, write_markdown, write_text};
+pub use verify::{Verified, render_verified};
 pub use volumes::{
     Balance, BulkingFigures, CutFillFigures, DepthPlace, Depths, METHOD, METHOD_TEXT, Reference, SIGN_RULE, VolumeParts, Volumes,
 };

@@ -4,6 +4,7 @@
 //! in the unit of the input, areas and volumes in its square and cube. A key that does not apply is left out, never `null`.
 
 use super::ground::{Daylight, FinishedFigures, GroundAreas, PadRow, SectionSlopes, StationRow, TerrainFigures};
+use super::result::{ResultFigures, RunRecord};
 use super::volumes::{Depths, Volumes};
 use crate::model::{Design, Extent, LengthUnit, Note, Slope};
 use schemars::JsonSchema;
@@ -69,6 +70,12 @@ pub struct Report {
     pub finished: Option<FinishedFigures>,
     /// What the reader should know.
     pub warnings: Vec<Warning>,
+    /// What was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub run: Option<RunRecord>,
+    /// Hashes of what came out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub result: Option<ResultFigures>,
     /// Seconds spent. The one part that differs from run to run.
     pub timing: Timing,
 }

@@ -3,7 +3,7 @@
 
 use super::{
     BATCH_SCHEMA, BatchReport, BetweenReport, CHECK_SCHEMA, CheckReport, DIFF_SCHEMA, DiffReport, INFO_SCHEMA, InfoReport,
-    Report, SCHEMA,
+    Report, SCHEMA, SELFTEST_SCHEMA, SelftestReport,
 };
 use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
@@ -22,12 +22,13 @@ pub struct Published {
 }
 
 /// All schemas. A new report is one line here.
-pub const PUBLISHED: [Published; 5] = [
+pub const PUBLISHED: [Published; 6] = [
     Published { name: SCHEMA, title: "Report of slopegen build or volume", reports: &[of::<Report>, of::<BetweenReport>] },
     Published { name: CHECK_SCHEMA, title: "Report of slopegen check", reports: &[of::<CheckReport>] },
     Published { name: BATCH_SCHEMA, title: "Summary of slopegen batch", reports: &[of::<BatchReport>] },
     Published { name: DIFF_SCHEMA, title: "Report of slopegen diff", reports: &[of::<DiffReport>] },
     Published { name: INFO_SCHEMA, title: "Report of slopegen info", reports: &[of::<InfoReport>] },
+    Published { name: SELFTEST_SCHEMA, title: "Report of slopegen selftest", reports: &[of::<SelftestReport>] },
 ];
 
 fn of<T: JsonSchema>(generator: &mut SchemaGenerator) -> Schema {

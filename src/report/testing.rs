@@ -100,6 +100,8 @@ pub(super) fn full() -> Report {
                 .into_iter()
                 .collect(),
         }],
+        run: Some(crate::report::result::testing::run("build")),
+        result: Some(crate::report::result::testing::result(true)),
         timing: Timing { read: 0.001, terrain: None, surface: 0.25, volume: 0.002, write: 0.0625, total: 0.3155 },
     }
 }
@@ -181,6 +183,7 @@ pub(super) fn least() -> Report {
     report.extent = Extent::Distance(12.5).into();
     (report.volumes, report.depths) = (None, None);
     report.warnings.clear();
+    (report.run, report.result) = (None, None);
     report
 }
 

@@ -1,6 +1,7 @@
 //! The surface of constant slope: network, facets, trimming, closure, emission.
 
 pub mod arcs;
+mod canonical;
 pub mod closure;
 pub mod emit;
 pub mod facet;

@@ -1,5 +1,6 @@
 //! The line as a plane graph: nodes, edges with two sides, and what meets at each node.
 
+use super::canonical;
 use super::noding::{Segments, weld};
 use super::simplify::{self, Chord};
 use crate::kernel::frame::Frame;
@@ -63,10 +64,12 @@ pub struct Edge {
     pub wanted: [bool; 2],
     /// Whether the inside of a ring lies on the left (0) and on the right (1).
     pub interior: [bool; 2],
-    /// Given vertices at its ends. An edge runs along its chain; the end of a ring's last segment counts on past the last
-    /// vertex. An edge of a simplified ring may run over the first vertex: it then ends at a lesser one than it begins. Where
-    /// several chains share an edge, the first.
+    /// Given vertices at its ends; the end of a ring's last segment counts on past the last vertex. An edge of a simplified ring may
+    /// run over the first vertex: it then ends at a lesser one than it begins, or a greater one where it runs against its chain.
+    /// Where several chains share an edge, one of them.
     pub given: [Given; 2],
+    /// Whether it runs against its chain.
+    pub against: bool,
     /// Vertices between the ends.
     pub inner: Vec<Inner>,
 }
@@ -97,6 +100,8 @@ struct Piece {
     interior: [bool; 2],
     /// The places of its ends on the line.
     given: [Given; 2],
+    /// Whether it runs against its chain.
+    against: bool,
 }
 
 impl Network {
@@ -109,9 +114,14 @@ impl Network {
             Frame::around(min, max)
         });
         let sign = if design.sheet == Sheet::Rising { -1.0 } else { 1.0 };
-        let (mut points, of_vertex) = weld(line, &frame, sign);
-        let segments = Segments::new(line, &of_vertex).noded(&mut points, line);
-        let pieces = pieces(line, design, &segments);
+        let (line, order) = canonical::line(line);
+        let (mut points, of_vertex) = weld(&line, &frame, sign);
+        let segments = Segments::new(&line, &of_vertex).noded(&mut points, &line);
+        let mut pieces = pieces(&line, design, &segments, &order);
+        for piece in &mut pieces {
+            piece.against = order.against(piece.given[0].chain);
+            piece.given = order.as_given(piece.given);
+        }
         let slopes = [design.slope, design.companion.unwrap_or(design.slope)].map(|slope| slope.ratio());
         let mut network =
             Self { frame, sign, nodes: points, edges: Vec::new(), simplified: 0, collinear: 0, simplified_max: 0.0 }
@@ -240,7 +250,8 @@ impl Network {
             inner.push(Inner { s: d.along * length, point, given: run.given[d.index] });
         }
         let given = [run.given[chord.from], run.arriving[chord.to]];
-        self.edges.push(Edge { a, b, given, wanted: run.wanted, interior: run.interior, inner });
+        let against = run.against;
+        self.edges.push(Edge { a, b, given, against, wanted: run.wanted, interior: run.interior, inner });
     }
 
     /// Renumbers nodes so that only those with an edge remain, in their old order.
@@ -271,7 +282,7 @@ fn plan_box(line: &Line) -> (DVec2, DVec2) {
 }
 
 /// The pieces of line between nodes, each once, with the sides on which a slope is wanted.
-fn pieces(line: &Line, design: &Design, segments: &Segments) -> Vec<Piece> {
+fn pieces(line: &Line, design: &Design, segments: &Segments, order: &canonical::Order) -> Vec<Piece> {
     let mut pieces: Vec<Piece> = Vec::new();
     let mut known: FxHashMap<[u32; 2], usize> = FxHashMap::default();
     for (c, chain) in line.chains.iter().enumerate() {
@@ -280,9 +291,10 @@ fn pieces(line: &Line, design: &Design, segments: &Segments) -> Vec<Piece> {
             Role::Outer { .. } => (design.side_of_rings, signed_area(&chain.vertices) > 0.0),
             Role::Hole { .. } => (design.side_of_rings, signed_area(&chain.vertices) < 0.0),
         };
+        let against = order.against(c as u32);
         let wanted = match side {
-            Side::Left => [true, false],
-            Side::Right => [false, true],
+            Side::Left => [!against, against],
+            Side::Right => [against, !against],
             Side::Both => [true, true],
             Side::Inside => [interior_left, !interior_left],
             Side::Outside => [!interior_left, interior_left],
@@ -298,7 +310,7 @@ fn pieces(line: &Line, design: &Design, segments: &Segments) -> Vec<Piece> {
                     let vertex = i as u32 + u32::from(t >= 1.0);
                     Given { chain: c as u32, vertex, part: if t >= 1.0 { 0.0 } else { t } }
                 };
-                let piece = Piece { ends, wanted, interior, given: [place(w[0].0), place(w[1].0)] };
+                let piece = Piece { ends, wanted, interior, given: [place(w[0].0), place(w[1].0)], against: false };
                 let pair = [ends[0].min(ends[1]), ends[0].max(ends[1])];
                 match known.get(&pair) {
                     Some(&p) => pieces[p].join(&piece, side),
@@ -336,10 +348,12 @@ fn signed_area(ring: &[DVec3]) -> f64 {
 /// A maximal path of pieces that agree in chain and sides, without a branch.
 struct Run {
     nodes: Vec<u32>,
-    /// The given vertex at each node.
+    /// The given vertex at each node, as the beginning of what follows.
     given: Vec<Given>,
     /// The same as the end of what comes before: a ring's first vertex counts on past the last one there.
     arriving: Vec<Given>,
+    /// Whether it runs against its chain.
+    against: bool,
     wanted: [bool; 2],
     interior: [bool; 2],
 }
@@ -393,6 +407,7 @@ impl<'a> Runs<'a> {
             nodes: vec![piece.ends[0], piece.ends[1]],
             given: piece.given.to_vec(),
             arriving: piece.given.to_vec(),
+            against: piece.against,
             wanted: piece.wanted,
             interior: piece.interior,
         };
@@ -405,10 +420,13 @@ impl<'a> Runs<'a> {
                 break;
             };
             done[next as usize] = true;
-            at = self.pieces[next as usize].ends[1];
+            let piece = &self.pieces[next as usize];
+            at = piece.ends[1];
             run.nodes.push(at);
-            run.given.push(self.pieces[next as usize].given[1]);
-            run.arriving.push(self.pieces[next as usize].given[1]);
+            // What goes on from a ring's first vertex begins there, and does not count on.
+            run.given.pop();
+            run.given.extend(piece.given);
+            run.arriving.push(piece.given[1]);
         }
         run
     }
@@ -430,12 +448,12 @@ impl<'a> Runs<'a> {
         let part = |from: usize, to: usize| {
             let count = (to + ring.len() - from - 1) % ring.len() + 1;
             let at: Vec<usize> = (0..=count).map(|i| (from + i) % ring.len()).collect();
-            // Where the walk comes back to its first vertex, that one's place counts on past the last vertex.
-            let arriving = at.iter().take(count).map(|&i| run.given[i + 1]);
+            let arriving = at.iter().take(count).map(|&i| run.arriving[i + 1]);
             Run {
                 nodes: at.iter().map(|&i| ring[i]).collect(),
                 given: at.iter().map(|&i| run.given[i]).collect(),
                 arriving: std::iter::once(run.given[from]).chain(arriving).collect(),
+                against: run.against,
                 wanted: run.wanted,
                 interior: run.interior,
             }

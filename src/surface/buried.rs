@@ -77,7 +77,10 @@ pub(crate) fn stretches(line: &Line, sheet: &Sheet, closure: &Closure) -> Found 
         for s in covered_ranges(sheet, closure, e as u32).into_iter().filter(|s| s[1] - s[0] > SHORTEST) {
             let middle = on(sheet, edge, 0.5 * (s[0] + s[1]));
             let covered = sheet.index.height(middle.truncate(), None).0 > middle.z + TOUCHING;
-            let at = s.map(|s| stations.of(e, s));
+            let mut at = s.map(|s| stations.of(e, s));
+            if edge.against {
+                at.reverse();
+            }
             parts.push((edge.given[0].chain as usize, Part { edge: e, s, covered, stations: at }));
         }
     }
@@ -269,12 +272,15 @@ struct Stations {
     by_chain: Vec<Vec<f64>>,
     /// `(s, station)` along each edge.
     on_edge: Vec<Vec<(f64, f64)>>,
+    /// Of each edge its chain, and whether it runs against it.
+    along: Vec<(usize, bool)>,
 }
 
 impl Stations {
     fn new(line: &Line, network: &Network) -> Self {
         let by_chain: Vec<Vec<f64>> = line.chains.iter().map(|c| c.stations()).collect();
-        let mut stations = Self { by_chain, on_edge: Vec::new() };
+        let along = network.edges.iter().map(|edge| (edge.given[0].chain as usize, edge.against)).collect();
+        let mut stations = Self { by_chain, on_edge: Vec::new(), along };
         for edge in &network.edges {
             let length = network.nodes[edge.a as usize].truncate().distance(network.nodes[edge.b as usize].truncate());
             let mut marks = vec![(0.0, stations.at(edge.given[0]))];
@@ -299,7 +305,13 @@ impl Stations {
         let i = marks.partition_point(|m| m.0 < s).clamp(1, marks.len() - 1);
         let ((s0, a), (s1, b)) = (marks[i - 1], marks[i]);
         // An edge of a simplified ring may run over the first vertex: there the station starts again.
-        let b = if b < a { b + self.by_chain.iter().map(|c| c[c.len() - 1]).fold(0.0, f64::max) } else { b };
+        let (chain, against) = self.along[e];
+        let length = self.by_chain[chain].last().copied().unwrap_or(0.0);
+        let (a, b) = match against {
+            false if b < a => (a, b + length),
+            true if a < b => (a + length, b),
+            _ => (a, b),
+        };
         a + (b - a) * ((s - s0) / (s1 - s0)).clamp(0.0, 1.0)
     }
 }

@@ -65,11 +65,15 @@ impl Stations {
         ring.filter(|length| station >= *length).map_or(station, |length| station - length)
     }
 
-    /// Stations of both ends of an edge. Of one that runs over the first vertex of a ring, the second counts on past its length.
+    /// Stations of both ends of an edge. Of one that runs over the first vertex of a ring, the later counts on past its length.
     fn ends(&self, edge: &Edge) -> [f64; 2] {
         let [first, second] = edge.given.map(|given| self.at(given));
-        let ring = self.rings[edge.given[0].chain as usize];
-        [first, ring.filter(|_| second < first).map_or(second, |length| second + length)]
+        let length = self.rings[edge.given[0].chain as usize].unwrap_or(0.0);
+        match edge.against {
+            false if second < first => [first, second + length],
+            true if first < second => [first + length, second],
+            _ => [first, second],
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Outputs that appear whole or not at all.
 
 use super::EncodeError;
+use super::digest::{self, Digest};
 use super::target::{Identity, folder_of, follow_links};
 use std::fs::{File, OpenOptions, Permissions};
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -86,6 +87,8 @@ pub enum Delivery {
 #[derive(Debug)]
 pub struct Outputs {
     slots: Vec<Slot>,
+    /// Whether hashes are taken.
+    hashed: bool,
 }
 
 #[derive(Debug)]
@@ -94,6 +97,8 @@ struct Slot {
     sink: Sink,
     /// Content has been written to the end.
     written: bool,
+    /// Of what was written, where that is wanted.
+    digest: Option<Digest>,
 }
 
 #[derive(Debug)]
@@ -101,6 +106,8 @@ enum Sink {
     Stdout,
     Stream(File),
     File { temporary: Pending<File>, path: PathBuf, permissions: Option<Permissions> },
+    Memory(Vec<u8>),
+    Nowhere,
 }
 
 /// A file under a temporary name, listed in [`UNFINISHED`] for as long as it has that name.
@@ -206,9 +213,43 @@ impl Outputs {
         }
         let open = |target: &Target| {
             let sink = Sink::open(target).map_err(|cause| WriteError::Open { target: target.clone(), cause })?;
-            Ok(Slot { target: target.clone(), sink, written: false })
+            Ok(Slot { target: target.clone(), sink, written: false, digest: None })
         };
-        Ok(Self { slots: targets.iter().map(open).collect::<Result<_, _>>()? })
+        Ok(Self { slots: targets.iter().map(open).collect::<Result<_, _>>()?, hashed: false })
+    }
+
+    /// Outputs that are kept in memory; whatever has their names stays as it is.
+    pub fn in_memory(targets: &[Target]) -> Self {
+        Self::without_files(targets, || Sink::Memory(Vec::new()))
+    }
+
+    /// Outputs that are made and not kept. Their hashes may be of use.
+    pub fn nowhere(targets: &[Target]) -> Self {
+        Self::without_files(targets, || Sink::Nowhere)
+    }
+
+    fn without_files(targets: &[Target], sink: impl Fn() -> Sink) -> Self {
+        let slot = |target: &Target| Slot { target: target.clone(), sink: sink(), written: false, digest: None };
+        Self { slots: targets.iter().map(slot).collect(), hashed: false }
+    }
+
+    /// The same, with hashes of what is written from now on.
+    pub fn hashed(self) -> Self {
+        Self { hashed: true, ..self }
+    }
+
+    /// Length and hash of output `index`, where it was written to the end and hashes are taken.
+    pub fn digest(&self, index: usize) -> Option<&Digest> {
+        self.slots.get(index).and_then(|slot| slot.digest.as_ref())
+    }
+
+    /// What was written into memory, with the targets.
+    pub fn into_memory(self) -> Vec<(Target, Vec<u8>)> {
+        let held = |slot: Slot| match slot.sink {
+            Sink::Memory(bytes) if slot.written => Some((slot.target, bytes)),
+            _ => None,
+        };
+        self.slots.into_iter().filter_map(held).collect()
     }
 
     /// Number of outputs.
@@ -235,9 +276,10 @@ impl Outputs {
     ) -> Result<Delivery, WriteError> {
         let slot = &mut self.slots[index];
         slot.written = false;
-        match slot.sink.fill(encode) {
-            Ok(()) => {
+        match slot.sink.fill(self.hashed, encode) {
+            Ok(digest) => {
                 slot.written = true;
+                slot.digest = digest;
                 Ok(Delivery::Complete)
             }
             Err(cause) if cause.is_closed_pipe() && !matches!(slot.sink, Sink::File { .. }) => Ok(Delivery::PipeClosed),
@@ -337,11 +379,20 @@ impl Sink {
         Ok(Self::File { temporary: Pending::beside(&path)?, path, permissions })
     }
 
-    fn fill(&mut self, encode: impl FnOnce(&mut dyn Write) -> Result<(), EncodeError>) -> Result<(), EncodeError> {
+    fn fill(
+        &mut self,
+        hashed: bool,
+        encode: impl FnOnce(&mut dyn Write) -> Result<(), EncodeError>,
+    ) -> Result<Option<Digest>, EncodeError> {
         match self {
-            Self::Stdout => fill_buffered(io::stdout().lock(), encode),
-            Self::Stream(file) => fill_buffered(file, encode),
-            Self::File { temporary, .. } => fill_buffered(&temporary.file, encode),
+            Self::Stdout => fill_buffered(io::stdout().lock(), hashed, encode),
+            Self::Stream(file) => fill_buffered(file, hashed, encode),
+            Self::File { temporary, .. } => fill_buffered(&temporary.file, hashed, encode),
+            Self::Memory(bytes) => {
+                bytes.clear();
+                fill_buffered(bytes, hashed, encode)
+            }
+            Self::Nowhere => fill_buffered(io::sink(), hashed, encode),
         }
     }
 
@@ -361,7 +412,15 @@ impl Sink {
     }
 }
 
-fn fill_buffered(sink: impl Write, encode: impl FnOnce(&mut dyn Write) -> Result<(), EncodeError>) -> Result<(), EncodeError> {
+fn fill_buffered(
+    sink: impl Write,
+    hashed: bool,
+    encode: impl FnOnce(&mut dyn Write) -> Result<(), EncodeError>,
+) -> Result<Option<Digest>, EncodeError> {
+    if hashed { digest::hashed(sink, |tee| buffered(tee, encode)) } else { buffered(sink, encode).map(|()| None) }
+}
+
+fn buffered(sink: impl Write, encode: impl FnOnce(&mut dyn Write) -> Result<(), EncodeError>) -> Result<(), EncodeError> {
     /// Bytes gathered from small writes.
     const BUFFER: usize = 1 << 16;
     let mut buffered = BufWriter::with_capacity(BUFFER, Counting { sink, written: 0 });

@@ -4,6 +4,7 @@
 
 pub mod atomic;
 mod clash;
+mod digest;
 pub mod dxf;
 pub mod error;
 #[cfg(feature = "geotiff")]
@@ -26,6 +27,7 @@ mod target;
 
 pub use atomic::{Delivery, Outputs, Target, discard_unfinished, discard_unfinished_within};
 pub use clash::{Clash, Footprint, first_clash};
+pub use digest::Digest;
 pub use dxf::{write_dxf, write_dxf_lines};
 pub use error::{EncodeError, WriteError};
 #[cfg(feature = "geotiff")]

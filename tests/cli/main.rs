@@ -18,9 +18,11 @@ mod landxml;
 mod messages;
 mod plots;
 mod sample;
+mod selftest;
 mod streams;
 #[cfg(unix)]
 mod unix;
+mod verify;
 mod volume;
 
 use std::fs;

@@ -3,27 +3,12 @@
 use crate::common::build::{design, line, on_both_sheets, polygon, rectangle, regular};
 use crate::common::measure::{close, curves, length, level_length, net_above, not_above, plan_area};
 use slopegen::model::{CurveKind, Design, Extent, Part, Side};
+use slopegen::selftest::formulas::{parallel_area, parallel_volume, pit_volume, roof_creases, roof_volume};
 use slopegen::surface;
 use std::f64::consts::{PI, TAU};
 
 /// Polyhedral figures: rounding of sums of a few hundred terms.
 const EXACT: f64 = 1e-9;
-
-/// Area of the points within `d` of a convex region of area `a` and perimeter `p` (Steiner): `a + p·d + π·d²`.
-fn parallel_area(a: f64, p: f64, d: f64) -> f64 {
-    a + p * d + PI * d * d
-}
-
-/// Volume under a slope that falls by `h` from a level convex region, `∫₀ʰ parallel_area(n·t) dt = a·h + p·n·h²/2 + π·n²·h³/3`.
-fn parallel_volume(a: f64, p: f64, n: f64, h: f64) -> f64 {
-    a * h + p * n * h * h / 2.0 + PI / 3.0 * n * n * h * h * h
-}
-
-/// Volume dug by slopes that fall by `d` inwards from a level rectangle, floor included:
-/// `∫₀ᵈ (l − 2nt)(w − 2nt) dt = lwd − (l + w)nd² + 4n²d³/3`.
-fn pit_volume(l: f64, w: f64, n: f64, d: f64) -> f64 {
-    l * w * d - (l + w) * n * d * d + 4.0 / 3.0 * n * n * d * d * d
-}
 
 #[test]
 fn pad() {
@@ -81,21 +66,18 @@ fn pit() {
 }
 
 /// Slopes inwards with nothing to stop them meet over the middle line: a hip roof, height `k·w/2`, upside down when falling.
-/// `l − w` of prism with section `w·height/2` and two half pyramids: `w·h/2·(l − w) + w²·h/3 = k·w²(3l − w)/12`.
 #[test]
 fn roof() {
     for (l, w, k) in [(40.0, 18.0, 0.6), (25.0, 25.0, 1.0), (33.0, 10.0, 2.5)] {
         let wanted = Design { side_of_rings: Side::Inside, ..design(k, Extent::Elevation(-1000.0)) };
         on_both_sheets(&line(&[rectangle([-7.0, 3.0, 5.0], l, w)]), &wanted, |surface| {
             let v = &surface.volumes;
-            close(v.cut, k * w * w * (3.0 * l - w) / 12.0, EXACT, "volume under the eaves");
+            close(v.cut, roof_volume(l, w, k), EXACT, "volume under the eaves");
             close(v.cut_max, k * w / 2.0, EXACT, "height");
             close(surface.areas.plan, l * w, EXACT, "plan area");
             close(surface.areas.fill_slope, l * w * 1.0_f64.hypot(k), EXACT, "slopes");
             assert_eq!(surface.areas.platform, 0.0);
-            // The ridge and four hips, each over half the width both ways.
-            let hip = w / 2.0 * (2.0 + k * k).sqrt();
-            close(length(surface, CurveKind::Valley), l - w + 4.0 * hip, EXACT, "hips and ridge");
+            close(length(surface, CurveKind::Valley), roof_creases(l, w, k), EXACT, "hips and ridge");
             assert_eq!(curves(surface, CurveKind::Boundary).count(), 0);
         });
     }

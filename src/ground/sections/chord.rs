@@ -3,7 +3,6 @@
 use super::fan::Plane;
 use crate::ground::{CutFill, Piece};
 use crate::kernel::sum::Sum;
-use crate::model::Part;
 
 /// Corners this near a section, in the length unit, lie on it. So an edge along the section is seen from the pieces on both
 /// sides, whatever rounding did to it; what is seen twice is counted once.
@@ -60,11 +59,6 @@ impl Chord {
 
 /// The chord of a section through a piece. The plane may also run along an edge.
 pub(super) fn chord(plane: &Plane, piece: &Piece<'_>) -> Option<Chord> {
-    let height = |height: f64| match piece.part {
-        Part::FillSlope => height.max(0.0),
-        Part::CutSlope => height.min(0.0),
-        Part::Platform | Part::Ground => height,
-    };
     let mut found: Option<Chord> = None;
     let mut meet = |end: End| match &mut found {
         None => found = Some(Chord { from: end, to: end }),
@@ -74,7 +68,7 @@ pub(super) fn chord(plane: &Plane, piece: &Piece<'_>) -> Option<Chord> {
     };
     let place = |corner: &crate::ground::Corner| {
         let (offset, ahead) = plane.split(corner.at);
-        (End { offset, height: height(corner.height), station: corner.station }, ahead)
+        (End { offset, height: corner.height, station: corner.station }, ahead)
     };
     let mut before = place(piece.corners.last()?);
     for corner in piece.corners {

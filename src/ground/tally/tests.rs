@@ -116,8 +116,8 @@ fn pieces_that_are_none() {
     let up = square.map(|(x, y)| corner(x, y, 2.0));
     assert_eq!(of(Part::Platform, Some(7), &up).pads.fill, 18.0);
     assert_eq!(of(Part::Ground, Some(0), &up).total, Amounts::default());
-    // Signs a slope cannot have are rounding; what is neither cut nor fill is counted as area.
-    let found = of(Part::CutSlope, Some(0), &square.map(|(x, y)| corner(x, y, 1e-17)));
+    // What is neither cut nor fill is counted as area.
+    let found = of(Part::CutSlope, Some(0), &square.map(|(x, y)| corner(x, y, 0.0)));
     assert_eq!((found.total.fill, found.total.cut, found.deepest_fill), (0.0, 0.0, None));
     near(found.total.level_area, 9.0, 9.0);
     // Stations beyond the axis go to its ends; what is no number changes nothing else.

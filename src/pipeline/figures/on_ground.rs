@@ -87,6 +87,8 @@ pub(in crate::pipeline) fn ground_report(
             .as_ref()
             .map(|tin| FinishedFigures { vertices: tin.vertices.len(), triangles: tin.triangles.len() }),
         warnings: warnings(notes),
+        run: None,
+        result: None,
         timing: Timing::default(),
     }
 }

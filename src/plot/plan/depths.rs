@@ -65,9 +65,9 @@ impl Depths {
     /// Draws the bands, the shallow ones under the deep ones, so that no paper shows between them.
     pub(super) fn draw(&self, svg: &mut Svg, map: &Map, scene: &Scene<'_>, most: usize) {
         let Some(ground) = &scene.ground else { return };
-        let all = outlines(ground.pieces.iter(), map, STEPS, vec![0.0], |_, _| 1.0);
-        let cut = outlines(ground.pieces.iter(), map, STEPS, self.levels(), |part, height| -worked(part, height));
-        let fill = outlines(ground.pieces.iter(), map, STEPS, self.levels(), worked);
+        let all = outlines(ground.pieces.iter(), map, STEPS, vec![0.0], |_| 1.0);
+        let cut = outlines(ground.pieces.iter(), map, STEPS, self.levels(), |height| -height);
+        let fill = outlines(ground.pieces.iter(), map, STEPS, self.levels(), |height| height);
         let classes = |letter| (0..self.count).map(move |i| self.class(letter, i));
         let named = std::iter::once("nought".to_owned()).chain(classes('c')).chain(classes('f'));
         draw(svg, named.zip(all.into_iter().chain(cut).chain(fill)).collect(), most);
@@ -91,28 +91,19 @@ impl Depths {
     }
 }
 
-/// A height without the sign its part cannot have.
-fn worked(part: Part, height: f64) -> f64 {
-    match part {
-        Part::FillSlope => height.max(0.0),
-        Part::CutSlope => height.min(0.0),
-        Part::Platform | Part::Ground => height,
-    }
-}
-
 /// Outlines of what lies above each level, on the map.
 fn outlines<'a>(
     pieces: impl Iterator<Item = Piece<'a>>,
     map: &Map,
     steps: f64,
     levels: Vec<f64>,
-    value: impl Fn(Part, f64) -> f64,
+    value: impl Fn(f64) -> f64,
 ) -> Vec<Vec<Stroke>> {
     let mut bands = Bands::new(levels, steps);
     let mut corners = Vec::new();
     for piece in pieces.filter(|piece| piece.corners.len() > 2 && piece.part != Part::Ground) {
         corners.clear();
-        corners.extend(piece.corners.iter().map(|c| Point { at: map.at(c.at), value: value(piece.part, c.height) }));
+        corners.extend(piece.corners.iter().map(|c| Point { at: map.at(c.at), value: value(c.height) }));
         bands.add(&corners);
     }
     bands.outlines()
@@ -151,8 +142,8 @@ pub(in crate::plot) fn band_outlines(scene: &Scene<'_>) -> Option<(f64, [Vec<Vec
     let map = Map::of(scene, 1000.0)?;
     let depths = Depths::of(scene)?;
     let pieces = scene.ground.as_ref()?.pieces;
-    let all = outlines(pieces.iter(), &map, FINER, vec![0.0], |_, _| 1.0);
-    let cut = outlines(pieces.iter(), &map, FINER, depths.levels(), |part, height| -worked(part, height));
-    let fill = outlines(pieces.iter(), &map, FINER, depths.levels(), worked);
+    let all = outlines(pieces.iter(), &map, FINER, vec![0.0], |_| 1.0);
+    let cut = outlines(pieces.iter(), &map, FINER, depths.levels(), |height| -height);
+    let fill = outlines(pieces.iter(), &map, FINER, depths.levels(), |height| height);
     Some((map.scale, [all, cut, fill]))
 }

@@ -125,14 +125,23 @@ pub fn read_terrain(path: &Path, options: &TerrainOptions) -> Result<RawTerrain,
         return Err(refuse("the ground cannot be read from standard input", "<stdin>", "it is given as `-`", help));
     }
     let bytes = room::load(&label, path, &options.memory)?;
+    parse_named_terrain(path, &bytes, options)
+}
+
+/// Reads existing ground from the bytes of a file of this name.
+///
+/// # Errors
+/// As [`read_terrain`].
+pub fn parse_named_terrain(path: &Path, bytes: &[u8], options: &TerrainOptions) -> Result<RawTerrain, ReadError> {
+    let label = path.display().to_string();
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
     let format = match options.format.or_else(|| InputFormat::from_path(path)) {
         Some(format) => format,
-        None => kind::only_by_content(&label, &bytes)?,
+        None => kind::only_by_content(&label, bytes)?,
     };
     // Files named `.xyz` have these columns by their name; other text files have to say.
     let by_name: Option<ColumnOrder> = if extension == "xyz" { "xyz".parse().ok() } else { None };
-    parse(&label, &bytes, &TerrainOptions { format: Some(format), ..options.clone() }, by_name.as_ref())
+    parse(&label, bytes, &TerrainOptions { format: Some(format), ..options.clone() }, by_name.as_ref())
 }
 
 /// Reads existing ground from bytes; `label` names them in messages. Without a format the content tells it.

@@ -22,7 +22,7 @@ pub struct Change {
     /// The difference as a share of the greater of the two without their signs, −2 to 2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative: Option<f64>,
-    /// Whether it counts: times, paths and the version of the program do not.
+    /// Whether it counts: times, paths, options, hashes and the version of the program do not.
     pub counts: bool,
 }
 
@@ -42,7 +42,7 @@ const NAMES: [&str; 2] = [".path", ".message"];
 fn counts(key: &str) -> bool {
     let top = key.split(['.', '[']).next().unwrap_or(key);
     let name = NAMES.iter().any(|end| key.ends_with(end));
-    !["timing", "tool", "seconds"].contains(&top) && !name
+    !["timing", "tool", "seconds", "run", "result"].contains(&top) && !name
 }
 
 fn walk(key: &str, first: Option<&Value>, second: Option<&Value>, changes: &mut Vec<Change>) {

@@ -1,10 +1,8 @@
-//! The same input gives the same bytes, on any number of threads and however often.
+//! The same bytes on any number of threads, and however often.
 
-mod common;
-
-use common::build::{design, line};
-use common::lines::{Random, case, crossing_roads, road, star};
-use common::oracle::Polyline;
+use crate::common::build::{design, line};
+use crate::common::lines::{Random, case, crossing_roads, road, star};
+use crate::common::oracle::Polyline;
 use slopegen::model::{Design, Extent, Sheet, Side};
 use slopegen::surface::{self, Surface};
 use slopegen::write::{Head, LineFormat, MeshFormat};
@@ -92,12 +90,55 @@ fn run(folder: &Path, threads: &str) -> Vec<(&'static str, Vec<u8>)> {
         .timeout(std::time::Duration::from_secs(120))
         .assert()
         .success();
-    assert_eq!(common::schema::check_folder(folder), 1);
+    assert_eq!(crate::common::schema::check_folder(folder), 1);
     let read = |name: &'static str| {
         let content = fs::read(folder.join(name)).expect(name);
         (name, if name == "r.json" { without_times(&content) } else { content })
     };
     outputs.map(read).to_vec()
+}
+
+/// Works on ground with every kind of output, volumes between meshes, and heights.
+#[test]
+fn every_output_of_the_program() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures");
+    for name in ["hill_road.geojson", "ground.obj", "road.geojson"] {
+        fs::copy(fixtures.join(name), folder.path().join(name)).expect("a fixture");
+    }
+    let build = "build hill_road.geojson --width 7 --terrain ground.obj --cut-slope 1:1 --fill-slope 1:1.5 --stations 20 --cell 2 \
+                 -o w.obj -o w.ply -o w.xml -o w.dxf -o w.stl -o w.glb -o w.tif -o w.asc --finished f.obj --finished f.ply --finished f.xml \
+                 --lines l.geojson --lines l.xml --lines l.dxf --stakes s.csv --station-table t.csv --plot plan.svg --plot profile.svg \
+                 --plot sections.svg --plot haul.svg --report r.json --report r.txt --report r.md --report r.html";
+    let volume = "volume f.obj ground.obj --report v.json --report v.txt --report v.md --report v.html --quiet";
+    let sample = "sample road.geojson --slope 1:1.5 --raster h.asc --cell 2";
+    let outputs = |threads: &str| {
+        for command in [build, volume, sample] {
+            assert_cmd::Command::new(env!("CARGO_BIN_EXE_slopegen"))
+                .args(command.split_whitespace().chain(["--threads", threads]))
+                .current_dir(folder.path())
+                .timeout(std::time::Duration::from_secs(300))
+                .assert()
+                .success();
+        }
+        let mut files: Vec<(String, Vec<u8>)> = fs::read_dir(folder.path())
+            .expect("a folder")
+            .map(|entry| entry.expect("a file").path())
+            .map(|path| (path.file_name().expect("a name").to_string_lossy().into_owned(), fs::read(&path).expect("content")))
+            .collect();
+        files.sort();
+        for (_, content) in files.iter_mut().filter(|(name, _)| ["r.json", "v.json"].contains(&name.as_str())) {
+            *content = without_times(content);
+        }
+        files
+    };
+    let expected = outputs("1");
+    assert!(expected.len() > 30, "{} files", expected.len());
+    for threads in ["2", "5"] {
+        for ((name, now), (_, before)) in outputs(threads).iter().zip(&expected) {
+            assert!(now == before, "{name}: other bytes on {threads} threads");
+        }
+    }
 }
 
 /// A report without the one key that may differ from run to run; the order of the others counts.
