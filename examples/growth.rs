@@ -107,7 +107,11 @@ fn panel(svg: &mut String, name: &str, curves: &[Curve], seconds: [i32; 2]) {
         let _ = writeln!(svg, "<text x=\"-8\" y=\"{:.1}\" text-anchor=\"end\" fill=\"#444\">{label}</text>", y + 4.0);
     }
     let middle = SIDE / 2.0;
-    let _ = writeln!(svg, "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\" fill=\"#444\">vertices (dotted: linear)</text>", SIDE + 40.0);
+    let _ = writeln!(
+        svg,
+        "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\" fill=\"#444\">vertices (dotted: linear)</text>",
+        SIDE + 40.0
+    );
     let _ = writeln!(
         svg,
         "<text transform=\"translate(-46 {middle}) rotate(-90)\" text-anchor=\"middle\" fill=\"#444\">processor time, s</text>"
