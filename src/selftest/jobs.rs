@@ -55,7 +55,7 @@ impl Shape {
 }
 
 /// Lines as GeoJSON, every ring a polygon of its own.
-pub(super) fn geojson(shapes: &[Shape]) -> String {
+pub(super) fn features(shapes: &[Shape]) -> String {
     let feature = |shape: &Shape| {
         let (kind, before, after) = if shape.closed { ("Polygon", "[[", "]]") } else { ("LineString", "[", "]") };
         format!(

@@ -4,7 +4,7 @@ use super::{from_segment, row};
 use crate::model::Sheet;
 use crate::pipeline::{Area, Lattice, Where};
 use crate::selftest::formulas::section_slope;
-use crate::selftest::jobs::{LINE, POINTS, geojson, open, points, sample, sample_raster};
+use crate::selftest::jobs::{LINE, POINTS, features, open, points, sample, sample_raster};
 use crate::selftest::{Bound, Case, Row};
 use crate::write::RasterFormat;
 use glam::DVec2;
@@ -38,7 +38,7 @@ fn level_line() -> Case {
     Case {
         group: GROUP,
         name: "about two level lines",
-        files: vec![(LINE, geojson(&lines)), (POINTS, points(&places))],
+        files: vec![(LINE, features(&lines)), (POINTS, points(&places))],
         jobs: vec![sample(k, Sheet::Falling)],
         exact: true,
         rows,
@@ -64,7 +64,7 @@ fn gradient(sheet: Sheet) -> Case {
     Case {
         group: GROUP,
         name,
-        files: vec![(LINE, geojson(&[line])), (POINTS, points(&places))],
+        files: vec![(LINE, features(&[line])), (POINTS, points(&places))],
         jobs: vec![sample(k, sheet)],
         exact: true,
         rows: vec![height(0, formula, expected), height(1, formula, expected), slope],
@@ -88,5 +88,5 @@ fn grid() -> Case {
         row("nodes", "41²", (size * size) as f64, Bound::Fixed(0.0), |outcomes| Some(outcomes.first()?.raster()?.len() as f64)),
     ];
     let jobs = vec![sample_raster(k, at)];
-    Case { group: GROUP, name: "grid about a bend", files: vec![(LINE, geojson(&[line]))], jobs, exact: true, rows }
+    Case { group: GROUP, name: "grid about a bend", files: vec![(LINE, features(&[line]))], jobs, exact: true, rows }
 }

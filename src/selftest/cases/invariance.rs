@@ -2,7 +2,7 @@
 
 use super::row;
 use crate::model::Extent;
-use crate::selftest::jobs::{Build, GROUND, LINE, Shape, geojson, open, plane, rectangle, ring};
+use crate::selftest::jobs::{Build, GROUND, LINE, Shape, features, open, plane, rectangle, ring};
 use crate::selftest::{Bound, Case, Row, Task};
 
 const GROUP: &str = "What must not matter";
@@ -23,7 +23,7 @@ fn crooked() -> Shape {
 }
 
 fn twice(name: &'static str, other: &Shape, first: Build, second: Build, rows: Vec<Row>) -> Case {
-    let files = vec![(LINE, geojson(&[crooked()])), (OTHER, geojson(std::slice::from_ref(other)))];
+    let files = vec![(LINE, features(&[crooked()])), (OTHER, features(std::slice::from_ref(other)))];
     Case { group: GROUP, name, files, jobs: vec![first.task(), second.line(OTHER).task()], exact: false, rows }
 }
 
@@ -53,9 +53,9 @@ fn far_on_ground() -> Case {
     let moved = pad.map(|[x, y, z]| [x + FAR[0], y + FAR[1], z]);
     let height = |x: f64, y: f64| 3.0 + 0.0625 * x + 0.125 * y;
     let files = vec![
-        (LINE, geojson(&[pad])),
+        (LINE, features(&[pad])),
         (GROUND, plane([0.0; 2], 128.0, height)),
-        (OTHER, geojson(&[moved])),
+        (OTHER, features(&[moved])),
         ("far.obj", plane(FAR, 128.0, |x, y| height(x - FAR[0], y - FAR[1]))),
     ];
     let second = Build::on_ground(0.5).line(OTHER).ground("far.obj");
@@ -106,7 +106,7 @@ fn order() -> Case {
     let mut other = crooked();
     other.points.rotate_left(2);
     other.points.reverse();
-    let files = vec![(LINE, geojson(&[crooked(), line.clone()])), (OTHER, geojson(&[line, other]))];
+    let files = vec![(LINE, features(&[crooked(), line.clone()])), (OTHER, features(&[line, other]))];
     let jobs = vec![down().task(), down().line(OTHER).task()];
     let rows = vec![same("0: lines in another order, a ring from another corner the other way round")];
     Case { group: GROUP, name: "order of the file", files, jobs, exact: false, rows }
@@ -115,5 +115,5 @@ fn order() -> Case {
 fn threads() -> Case {
     let jobs = vec![down().task(), Task::OneThread(Box::new(down().task()))];
     let rows = vec![same("0: on all threads and on one")];
-    Case { group: GROUP, name: "number of threads", files: vec![(LINE, geojson(&[crooked()]))], jobs, exact: false, rows }
+    Case { group: GROUP, name: "number of threads", files: vec![(LINE, features(&[crooked()]))], jobs, exact: false, rows }
 }

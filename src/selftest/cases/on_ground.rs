@@ -3,7 +3,7 @@
 use super::{exact, from_segment, greatest, key, row};
 use crate::model::Side;
 use crate::selftest::formulas::{parallel_area, parallel_volume, pit_volume, section_slope, segment_volume};
-use crate::selftest::jobs::{Build, FINISHED, GROUND, LINE, Shape, TOLERANCE, between, geojson, open, plane, rectangle, volume};
+use crate::selftest::jobs::{Build, FINISHED, GROUND, LINE, Shape, TOLERANCE, between, features, open, plane, rectangle, volume};
 use crate::selftest::{Bound, Case, ROUNDING, Row};
 use std::f64::consts::TAU;
 
@@ -13,7 +13,7 @@ const GROUP: &str = "On existing ground";
 const REACH: f64 = 200.0;
 
 fn case(name: &'static str, exact: bool, lines: &[Shape], ground: String, build: Build, rows: Vec<Row>) -> Case {
-    Case { group: GROUP, name, files: vec![(LINE, geojson(lines)), (GROUND, ground)], jobs: vec![build.task()], exact, rows }
+    Case { group: GROUP, name, files: vec![(LINE, features(lines)), (GROUND, ground)], jobs: vec![build.task()], exact, rows }
 }
 
 pub(super) fn cases() -> Vec<Case> {
@@ -198,7 +198,7 @@ fn finished() -> Case {
     Case {
         group: GROUP,
         name: "finished ground, measured again",
-        files: vec![(LINE, geojson(&[pad])), (GROUND, ground)],
+        files: vec![(LINE, features(&[pad])), (GROUND, ground)],
         jobs: vec![Build::on_ground(k).finished().task(), volume(between(FINISHED, GROUND), None)],
         exact: false,
         rows,

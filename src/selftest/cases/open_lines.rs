@@ -3,14 +3,14 @@
 use super::{exact, from_segment, greatest, key, row};
 use crate::model::{Extent, Side};
 use crate::selftest::formulas::{section_slope, segment_area, segment_volume};
-use crate::selftest::jobs::{Build, LINE, Shape, TOLERANCE, geojson, open};
+use crate::selftest::jobs::{Build, LINE, Shape, TOLERANCE, features, open};
 use crate::selftest::{Bound, Case, Row};
 use std::f64::consts::PI;
 
 const GROUP: &str = "Slopes of lines";
 
 fn case(name: &'static str, exact: bool, lines: &[Shape], build: Build, rows: Vec<Row>) -> Case {
-    Case { group: GROUP, name, files: vec![(LINE, geojson(lines))], jobs: vec![build.task()], exact, rows }
+    Case { group: GROUP, name, files: vec![(LINE, features(lines))], jobs: vec![build.task()], exact, rows }
 }
 
 pub(super) fn cases() -> Vec<Case> {

@@ -1,7 +1,7 @@
 //! What must be refused.
 
 use crate::model::Extent;
-use crate::selftest::jobs::{Build, GROUND, LINE, between, geojson, obj, open, plane, rectangle, ring, volume};
+use crate::selftest::jobs::{Build, GROUND, LINE, between, features, obj, open, plane, rectangle, ring, volume};
 use crate::selftest::{Case, Expected, Row, Task};
 
 const GROUP: &str = "Refusals";
@@ -10,13 +10,13 @@ pub(super) fn cases() -> Vec<Case> {
     vec![
         lines(
             "segment as steep as the slope",
-            geojson(&[open(&[[0.0, 0.0, 0.0], [10.0, 0.0, 6.0]])]),
+            features(&[open(&[[0.0, 0.0, 0.0], [10.0, 0.0, 6.0]])]),
             "as steep as the slope asked for",
         ),
-        lines("elevation that is no number", geojson(&[open(&[[0.0, 0.0, 0.0], [10.0, 0.0, f64::NAN]])]), ""),
-        lines("longitude and latitude", geojson(&[open(&[[11.5, 48.1, 500.0], [11.6, 48.2, 501.0]])]), "degrees"),
-        lines("ring that crosses itself", geojson(&[bow_tie()]), "cross"),
-        lines("line without length", geojson(&[open(&[[1.0, 1.0, 0.0], [1.0, 1.0, 0.0]])]), ""),
+        lines("elevation that is no number", features(&[open(&[[0.0, 0.0, 0.0], [10.0, 0.0, f64::NAN]])]), ""),
+        lines("longitude and latitude", features(&[open(&[[11.5, 48.1, 500.0], [11.6, 48.2, 501.0]])]), "degrees"),
+        lines("ring that crosses itself", features(&[bow_tie()]), "cross"),
+        lines("line without length", features(&[open(&[[1.0, 1.0, 0.0], [1.0, 1.0, 0.0]])]), ""),
         ground("easting and northing swapped", plane([5_400_000.0, 500_000.0], 200.0, |_, _| 0.0), ""),
         ground("ground too small for the slopes", plane([500_000.0, 5_400_000.0], 20.0, |_, _| 0.0), "do not meet the ground"),
         ground("gap in the ground", gap(), "no ground"),
@@ -41,7 +41,7 @@ fn lines(name: &'static str, line: String, words: &'static str) -> Case {
 /// A pad of 30 by 20, 10 above ground at E 500 000, N 5 400 000.
 fn ground(name: &'static str, ground: String, words: &'static str) -> Case {
     let pad = rectangle([499_985.0, 5_399_990.0, 10.0], 30.0, 20.0);
-    refused(name, vec![(LINE, geojson(&[pad])), (GROUND, ground)], Build::on_ground(0.5).task(), words)
+    refused(name, vec![(LINE, features(&[pad])), (GROUND, ground)], Build::on_ground(0.5).task(), words)
 }
 
 fn bow_tie() -> crate::selftest::jobs::Shape {

@@ -3,14 +3,14 @@
 use super::{exact, key, length, row};
 use crate::model::{Extent, Side};
 use crate::selftest::formulas::{frustum_volume, parallel_area, parallel_volume, pit_volume, roof_creases, roof_volume};
-use crate::selftest::jobs::{Build, LINE, Shape, geojson, polygon, rectangle, ring};
+use crate::selftest::jobs::{Build, LINE, Shape, features, polygon, rectangle, ring};
 use crate::selftest::{Bound, Case, Row};
 use std::f64::consts::{PI, TAU};
 
 const GROUP: &str = "Slopes of rings";
 
 fn case(name: &'static str, exact: bool, rings: &[Shape], build: Build, rows: Vec<Row>) -> Case {
-    Case { group: GROUP, name, files: vec![(LINE, geojson(rings))], jobs: vec![build.task()], exact, rows }
+    Case { group: GROUP, name, files: vec![(LINE, features(rings))], jobs: vec![build.task()], exact, rows }
 }
 
 pub(super) fn cases() -> Vec<Case> {

@@ -3,7 +3,7 @@
 use super::{exact, key};
 use crate::pipeline::Against;
 use crate::selftest::formulas::frustum_volume;
-use crate::selftest::jobs::{LINE, between, geojson, obj, plane, rectangle, volume};
+use crate::selftest::jobs::{LINE, between, features, obj, plane, rectangle, volume};
 use crate::selftest::{Bound, Case, Row, Task};
 use std::path::PathBuf;
 
@@ -66,7 +66,7 @@ fn within() -> Case {
     let files = vec![
         ("a.obj", plane([0.0; 2], 10.0, |x, y| 2.0 + 0.1 * x - 0.2 * y)),
         ("b.obj", plane([0.0; 2], 10.0, |x, y| 0.1 * x - 0.2 * y)),
-        (LINE, geojson(&[rectangle([-3.0, -2.0, 0.0], 7.0, 5.0)])),
+        (LINE, features(&[rectangle([-3.0, -2.0, 0.0], 7.0, 5.0)])),
     ];
     let rows = vec![
         exact("volumes.fill", "l·w·d, l = 7, w = 5, d = 2", 70.0),
