@@ -1,5 +1,7 @@
 //! The files under `fixtures/fuzz`, each through its fuzz target: what fuzzers went through once, and what they found.
 
+#![allow(clippy::print_stderr, clippy::print_stdout, reason = "tells which file, and what it is, when one fails")]
+
 #[path = "fuzz/src/targets/mod.rs"]
 mod targets;
 

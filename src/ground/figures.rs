@@ -18,7 +18,7 @@ use crate::mesh::check::{self, HalfEdges, Soundness};
 use crate::mesh::{polygon, volume};
 use crate::model::{CurveKind, Design, Line, LineFeature, Note, Part, Sheet, Terrain, Tin};
 use crate::surface::curves::{self, chained};
-use crate::surface::{Areas, CONE_BOUND, Certificate, MEASURABLE_HEIGHT, Mark, STRIP_BOUND, Surface};
+use crate::surface::{Areas, CHORD_SHARE, CONE_BOUND, Certificate, MEASURABLE_HEIGHT, Mark, STRIP_BOUND, Surface};
 use glam::DVec3;
 use rustc_hash::FxHashSet;
 
@@ -172,10 +172,10 @@ impl Numbering {
     }
 }
 
-/// Simplifying moves the sheet by at most `simplified_max`, chords lower cones by at most a third of the tolerance.
+/// Simplifying moves the sheet by at most `simplified_max`, chords lower cones by at most their share of the tolerance.
 fn error_bound(found: &Found, design: &Tin) -> (f64, f64) {
     let moved = found.surfaces.iter().map(|s| s.simplified_max).fold(0.0, f64::max);
-    let chord = found.designs.iter().map(|d| d.tolerance / 3.0).fold(0.0, f64::max);
+    let chord = found.designs.iter().map(|d| CHORD_SHARE * d.tolerance).fold(0.0, f64::max);
     let on_cone = |t: &usize| {
         let foot = found.shape.foot_of[found.trimmed.from[*t] as usize];
         foot != NONE && found.shape.feet[foot as usize].on_cone

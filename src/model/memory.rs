@@ -71,7 +71,7 @@ impl Memory {
     pub fn room(&self, more: u64, of: impl FnOnce() -> Need) -> Result<(), TooLarge> {
         let need = BASE.saturating_add(self.held).saturating_add(more);
         match self.limit {
-            Some((allowed, by)) if need > allowed => Err(TooLarge { need: of(), bytes: need, allowed, by }),
+            Some((allowed, by)) if need > allowed => Err(TooLarge { need: Box::new(of()), bytes: need, allowed, by }),
             _ => Ok(()),
         }
     }
@@ -94,7 +94,7 @@ pub struct Need {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TooLarge {
     /// What needs it.
-    pub need: Need,
+    pub need: Box<Need>,
     /// About how many bytes the process would take.
     pub bytes: u64,
     /// How many it may.
@@ -105,7 +105,7 @@ pub struct TooLarge {
 
 impl fmt::Display for TooLarge {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Need { what, at, figures, help } = &self.need;
+        let Need { what, at, figures, help } = &*self.need;
         write!(f, "there is not enough memory to {what}")?;
         if !at.is_empty() {
             write!(f, "\n  --> {at}")?;

@@ -27,7 +27,7 @@ pub(super) fn for_content(label: &str, format: InputFormat, bytes: &[u8], memory
     let content = content(format, bytes);
     memory.room(length + content, || match format {
         InputFormat::Obj => Need {
-            help: "write it as `.ply`, which takes a third of that, or cut out the part around the works",
+            help: "write it as `.ply`, which takes half of that, or cut out the part around the works",
             ..need(label, length)
         },
         InputFormat::Dxf => Need {
@@ -57,8 +57,8 @@ fn content(format: InputFormat, bytes: &[u8]) -> u64 {
     match format {
         // Coordinates in doubles, corners in 32 bits; files of single precision grow most.
         InputFormat::Ply => 13 * bytes.len() as u64 / 10,
-        // What tobj holds of a vertex or a face, each a line.
-        InputFormat::Obj => 155 * count(b'\n'),
+        // A vertex or a triangle, each a line, in its stretch of the file and in the whole.
+        InputFormat::Obj => 40 * count(b'\n'),
         // A face has 28 lines.
         InputFormat::Dxf => 3 * count(b'\n'),
         InputFormat::LandXml => 12 * count(b'<'),

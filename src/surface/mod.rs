@@ -39,7 +39,7 @@ use solve::Solved;
 const SIMPLIFY_SHARE: f64 = 1.0 / 3.0;
 
 /// Share of the tolerance that chords of cones may use. The rest is reserve.
-const CHORD_SHARE: f64 = 1.0 / 3.0;
+pub(crate) const CHORD_SHARE: f64 = 1.0 / 3.0;
 
 /// How far beyond the outer distance the sheet is followed, relative to its depth there and at least this many length units.
 const BEYOND_REACH: f64 = 1e-3;
@@ -94,7 +94,10 @@ pub enum SurfaceError {
         what: String,
     },
     /// An outline could not be filled.
-    #[error("the {part} cannot be triangulated near ({x:.3}, {y:.3}): {cause}")]
+    #[error(
+        "the {part} cannot be triangulated near ({x:.3}, {y:.3}): {cause}\n   = slopes leave the ring they belong to where its sides \
+         close up at different heights\n   = help: build on one side at a time, use a steeper slope, or blunt the corner"
+    )]
     Flat {
         /// Platform or floor.
         part: &'static str,

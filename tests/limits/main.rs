@@ -1,5 +1,6 @@
 //! Interrupts and resources: whatever ends a run early, the outputs of a job are all there or none, and the exit code says why.
 #![cfg(unix)]
+#![allow(clippy::print_stderr, reason = "tells what was skipped")]
 
 mod disk;
 mod interrupts;

@@ -22,8 +22,11 @@ mod written;
 
 use slopegen::read::InputFormat;
 
+/// A name, and what is done with the bytes.
+type Target = (&'static str, fn(&[u8]));
+
 /// All targets by name.
-pub(crate) const TARGETS: &[(&str, fn(&[u8]))] = &[
+pub(crate) const TARGETS: &[Target] = &[
     ("csv", |bytes| lines::read(bytes, InputFormat::Csv)),
     ("geojson", |bytes| lines::read(bytes, InputFormat::GeoJson)),
     ("landxml", |bytes| lines::read(bytes, InputFormat::LandXml)),
