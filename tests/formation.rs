@@ -415,7 +415,7 @@ fn real_centre_lines() {
 #[test]
 fn slopes_that_end_along_a_road_leave_no_gap() {
     let points: Vec<[f64; 3]> =
-        (0..40).map(|i| f64::from(i)).map(|i| [9.5 * i, 20.0 * (0.2 * i).sin(), 3.0 * (0.13 * i).sin()]).collect();
+        (0..40).map(f64::from).map(|i| [9.5 * i, 20.0 * (0.2 * i).sin(), 3.0 * (0.13 * i).sin()]).collect();
     for (left, right) in [(0.0, 0.0), (0.05, 0.02)] {
         let line = wide(&[open(&points)], &road(7.0, left, right));
         for end in [-2.5, -1.0, 0.0, 0.7, 1.3, 2.0, 2.9] {
