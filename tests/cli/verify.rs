@@ -18,28 +18,33 @@ fn report(site: &Site) -> Value {
     serde_json::from_str(&site.read("r.json")).unwrap()
 }
 
+/// Name of the report after it was changed: no longer one that its schema must allow.
+const TAMPERED: &str = "r.report";
+
+/// The report as it was changed last.
+fn last(site: &Site) -> &'static str {
+    if site.path(TAMPERED).exists() { TAMPERED } else { "r.json" }
+}
+
 /// Changes the report.
 fn tamper(site: &Site, change: impl FnOnce(&mut Value)) {
-    let mut value = report(site);
+    let mut value = serde_json::from_str(&site.read(last(site))).unwrap();
     change(&mut value);
     // The schema comes first in every report.
     let text = serde_json::to_string(&value).unwrap();
     let schema = value["schema"].to_string();
     let text = text.replacen(&format!("\"schema\":{schema},"), "", 1).replacen('{', &format!("{{\"schema\":{schema},"), 1);
-    fs::write(site.path("r.json"), text).unwrap();
+    fs::write(site.path(TAMPERED), text).unwrap();
 }
 
 /// The report does not agree, for these reasons.
 #[track_caller]
 fn differs(site: &Site, words: &[&str]) {
     let before = site.new_files();
-    let run = site.run("verify r.json");
+    let run = site.run(&format!("verify {}", last(site)));
     assert_eq!(run.code, 5, "{}{}", run.stdout, run.stderr);
-    assert!(
-        run.stderr.starts_with("error: the report does not agree with what it was made from\n  --> r.json\n"),
-        "{}",
-        run.stderr
-    );
+    let begins = format!("error: the report does not agree with what it was made from\n  --> {}\n", last(site));
+    assert!(run.stderr.starts_with(&begins), "{}", run.stderr);
     for word in words {
         assert!(run.stderr.contains(word), "{word} in {}", run.stderr);
     }
@@ -244,7 +249,7 @@ fn reports_of_other_versions() {
         report["volumes"]["fill"] = json!(fill * (1.0 + 1e-12));
         report["result"]["sha256"] = json!("0".repeat(64));
     });
-    let run = site.run("verify r.json");
+    let run = site.run(&format!("verify {TAMPERED}"));
     assert!(run.done().contains("note: made by version 0.0.9, run again by "), "{}", run.stdout);
     tamper(&site, |report| report["volumes"]["fill"] = json!(fill * (1.0 + 1e-6)));
     differs(&site, &["volumes.fill"]);
@@ -254,7 +259,7 @@ fn reports_of_other_versions() {
 fn what_is_no_report_is_refused() {
     let site = pad();
     let whole = site.read("r.json");
-    let write = |text: &str| fs::write(site.path("h.json"), text).unwrap();
+    let write = |text: &str| fs::write(site.path("h.report"), text).unwrap();
     let begins = r#"{"schema": "slopegen-report/1", "#;
     for (text, words) in [
         ("", "no report of this program"),
@@ -274,7 +279,7 @@ fn what_is_no_report_is_refused() {
         (&format!("{begins}\"run\": {{\"command\": \"build\", \"options\": {{\"slope\": [\"1:2\"]}}}}}}"), "`run.options`: "),
     ] {
         write(text);
-        refused(&site, "verify h.json", 3, &[words, "h.json"]);
+        refused(&site, "verify h.report", 3, &[words, "h.report"]);
     }
     for (option, value, words) in [
         ("input", "-", "came from standard input"),
@@ -288,9 +293,9 @@ fn what_is_no_report_is_refused() {
         value_of["run"]["options"]["input-format"] = json!(["geojson"]);
         let text = value_of.to_string();
         write(&format!("{}{}", r#"{"schema":"slopegen-report/1","#, &text[1..]));
-        let run = site.run_with("verify h.json", "garbage");
+        let run = site.run_with("verify h.report", "garbage");
         assert!(run.code == 3 && run.stderr.contains(words), "{option} {value}: {} {}", run.code, run.stderr);
     }
-    refused(&site, "verify no_such.json", 3, &["no_such.json"]);
+    refused(&site, "verify no_such.report", 3, &["no_such.report"]);
     refused(&site, "verify .", 3, &["not a file"]);
 }
