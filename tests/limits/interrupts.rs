@@ -2,10 +2,11 @@
 
 use super::{PATIENCE, Site};
 use rustix::process::{Pid, Signal, kill_process};
+use std::ffi::OsStr;
 use std::fs;
 use std::io::{Read as _, Write as _};
 use std::os::unix::process::ExitStatusExt as _;
-use std::process::{Child, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -16,6 +17,23 @@ const JOB: &str = "build road.csv --width 4 --slope 1:1.5 --terrain ground.ply -
 
 const SIGNALS: [(Signal, i32); 3] = [(Signal::INT, 2), (Signal::TERM, 15), (Signal::HUP, 1)];
 
+/// The program, with signals as in a terminal: what is started in the background, or by `nohup`, ignores some of them, and so would
+/// what the tests start. (GNU's `env` can do this.)
+fn signalled(site: &Site, arguments: &str) -> Command {
+    let plain = site.program(arguments);
+    let with_defaults = |program: &OsStr| {
+        let mut command = Command::new("env");
+        command.arg("--default-signal=INT,TERM,HUP").arg(program);
+        command
+    };
+    if !with_defaults("true".as_ref()).status().is_ok_and(|status| status.success()) {
+        return plain;
+    }
+    let mut command = with_defaults(plain.get_program());
+    command.args(plain.get_args());
+    site.here(command)
+}
+
 fn send(child: &Child, signal: Signal) {
     // One that has ended already has to be waited for first, which keeps its number.
     let _ = kill_process(Pid::from_child(child), signal);
@@ -23,7 +41,17 @@ fn send(child: &Child, signal: Signal) {
 
 /// The code of a child that was sent a signal: its own, or −1 if the signal came before anything was begun.
 fn code(child: &mut Child, number: i32) -> i32 {
-    let status = child.wait().unwrap();
+    let begun = Instant::now();
+    let status = loop {
+        if let Some(status) = child.try_wait().unwrap() {
+            break status;
+        }
+        if begun.elapsed() > PATIENCE {
+            let _ = child.kill();
+            panic!("signal {number} did not end the run");
+        }
+        sleep(Duration::from_millis(5));
+    };
     match status.signal() {
         Some(signal) => {
             assert_eq!(signal, number);
@@ -54,7 +82,7 @@ fn at_random_moments_there_is_all_or_nothing() {
         if old {
             OUTPUTS.iter().for_each(|name| fs::write(site.path(name), "old").unwrap());
         }
-        let mut child = site.program(JOB).spawn().unwrap();
+        let mut child = signalled(&site, JOB).spawn().unwrap();
         sleep(whole.mul_f64(1.1 * f64::from(state >> 16) / 65536.0));
         send(&child, signal);
         let code = code(&mut child, number);
@@ -84,7 +112,7 @@ fn between_the_renames() {
     // Each with the file that tells its origin.
     const ALL: usize = 200;
     for (signal, number) in SIGNALS {
-        let mut child = site.program(&job).spawn().unwrap();
+        let mut child = signalled(&site, &job).spawn().unwrap();
         let begun = Instant::now();
         let named = || site.files().iter().any(|name| !name.starts_with('.'));
         while !named() {
@@ -119,7 +147,7 @@ fn in_a_batch_every_job_is_whole_or_absent() {
     for round in 0..12 {
         results().iter().for_each(|name| fs::remove_file(site.path(name)).unwrap());
         let (signal, number) = SIGNALS[round % 3];
-        let mut child = site.program(&command).spawn().unwrap();
+        let mut child = signalled(&site, &command).spawn().unwrap();
         sleep(whole.mul_f64((round + 1) as f64 / 13.0));
         send(&child, signal);
         let code = code(&mut child, number);
@@ -150,7 +178,7 @@ const WAITING: &str = "build - --input-format csv --slope 1:1.5 -q -o a.obj -o a
 fn every_signal_has_its_code() {
     let site = Site::new(3);
     for (signal, number) in SIGNALS {
-        let mut child = waiting(&site, site.program(WAITING));
+        let mut child = waiting(&site, signalled(&site, WAITING));
         let stdin = child.stdin.take();
         send(&child, signal);
         assert_eq!(code(&mut child, number), 128 + number);
@@ -159,7 +187,7 @@ fn every_signal_has_its_code() {
     }
     // Twice at once, as `timeout` does: the second does not cut the first short.
     for _ in 0..5 {
-        let mut child = waiting(&site, site.program(WAITING));
+        let mut child = waiting(&site, signalled(&site, WAITING));
         let stdin = child.stdin.take();
         send(&child, Signal::TERM);
         send(&child, Signal::TERM);
@@ -187,7 +215,7 @@ fn what_nohup_switches_off_stays_off() {
 #[test]
 fn what_a_killed_run_leaves_is_known_by_its_name() {
     let site = Site::new(3);
-    let mut child = waiting(&site, site.program(WAITING));
+    let mut child = waiting(&site, signalled(&site, WAITING));
     child.kill().unwrap();
     child.wait().unwrap();
     assert!(site.files().iter().all(|name| name.starts_with(".slopegen-") && name.ends_with(".part")), "{:?}", site.files());
