@@ -1,6 +1,6 @@
 //! Outputs appear whole or not at all.
 
-use slopegen::write::{Delivery, EncodeError, Outputs, Target, WriteError, discard_unfinished};
+use slopegen::write::{Delivery, EncodeError, Outputs, Target, WriteError};
 use std::fs;
 use std::path::Path;
 use std::sync::Mutex;
@@ -78,18 +78,6 @@ fn an_output_not_written_to_the_end_does_not_appear() {
     assert!(error.to_string().contains("report figure `volumes.cut` is not a finite number"), "{error}");
     outputs.commit().unwrap();
     assert_eq!(names(folder.path()), ["a"]);
-}
-
-#[test]
-fn interrupt_leaves_no_files() {
-    let _guard = alone();
-    let folder = tempfile::tempdir().unwrap();
-    let mut outputs = open(&[file(&folder.path().join("a"))]).unwrap();
-    put(&mut outputs, 0, "A").unwrap();
-    discard_unfinished();
-    assert!(names(folder.path()).is_empty());
-    assert!(outputs.commit().is_err());
-    assert!(names(folder.path()).is_empty());
 }
 
 #[test]
