@@ -2,6 +2,7 @@
 
 use super::{Run, Site};
 use std::fs;
+use std::os::unix::process::ExitStatusExt as _;
 
 #[test]
 fn amounts_are_read_strictly() {
@@ -81,7 +82,13 @@ fn under(option: char, kilobytes: impl Iterator<Item = u32>) {
                --finished f.obj --report r.html";
     let mut codes = Vec::new();
     for limit in kilobytes {
-        let run = Run::of(site.behind(&format!("ulimit -c 0; ulimit -{option} {limit}"), job));
+        let shell = format!("ulimit -c 0; ulimit -{option} {limit}");
+        let run = Run::of(site.behind(&shell, job));
+        if run.status.signal().is_some() && Run::of(site.behind(&shell, "--version")).status.signal().is_some() {
+            // So little that the system ends the program while it loads it.
+            assert!(site.files().is_empty(), "{limit}: {:?}", site.files());
+            continue;
+        }
         let code = run.code();
         codes.push(code);
         if code == 0 {
