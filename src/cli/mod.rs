@@ -213,6 +213,6 @@ fn startable(wanted: usize) -> usize {
 #[derive(Clone, Copy, Debug, thiserror::Error)]
 #[error(
     "no thread could be started\n   = the system refused: too little memory, or too many processes\n   \
-     = help: raise what `ulimit -v` or `ulimit -u` allow, or end other programs"
+     = help: raise what `--max-memory`, `ulimit -v` or `ulimit -u` allow, or end other programs"
 )]
 struct NoThreads;
