@@ -66,6 +66,50 @@ fn extent(random: &mut Random, line: &Line, k: f64, sheet: Sheet) -> Extent {
     }
 }
 
+/// The volumes of a coarse surface differ from those of a much finer one by no more than both say they may.
+#[test]
+fn volumes_are_within_their_bounds() {
+    let mut used = 0.0_f64;
+    for seed in 0..160 {
+        let mut coarse = job(seed, [12, 60, 250][seed as usize % 3], 0.1);
+        if seed % 4 == 0 {
+            coarse.design.extent = Extent::Distance(6.0 / coarse.k());
+        }
+        let (a, name) = (coarse.build().volumes, coarse.name.clone());
+        let design = Design { tolerance: 1e-3, ..coarse.design };
+        let b = Job { design, reference: Some(a.reference), ..coarse }.build().volumes;
+        let off = (a.cut - b.cut).abs().max((a.fill - b.fill).abs());
+        let bound = a.error_bound + b.error_bound + 1e-9 * (1.0 + a.cut + a.fill);
+        assert!(off <= bound, "seed {seed}, {name}: {off} apart, {bound} allowed: {a:?} {b:?}");
+        used = used.max(off / bound);
+    }
+    // Bounds that allow anything would pass as well.
+    assert!(used > 0.25, "{used} of a bound used at most");
+}
+
+/// A slope on one side of a level arc ends in rulings at right angles to its ends. With radius R, angle φ and width D its volume above
+/// the plane at the end is `φ k (R D²/2 + D³/6)` on the outside.
+#[test]
+fn slopes_on_one_side_end_at_right_angles() {
+    let (radius, angle, k, width, count) = (60.0_f64, 0.9, 0.5, 8.0, 3000);
+    let point = |i: usize| {
+        let (sin, cos) = (angle * i as f64 / f64::from(count)).sin_cos();
+        [radius * cos, radius * sin, 0.0]
+    };
+    let arc = common::build::open(&(0..=count as usize).map(point).collect::<Vec<_>>());
+    let expected = angle * k * (radius * width * width / 2.0 + width.powi(3) / 6.0);
+    for (extent, tolerance) in
+        [(Extent::Height(k * width), 0.1), (Extent::Elevation(-k * width), 0.1), (Extent::Distance(width), 1e-3)]
+    {
+        // Counter-clockwise: the outside is on the right.
+        let design = Design { side_of_lines: Side::Right, tolerance, ..design(k, extent) };
+        let volumes = surface::build(&line(std::slice::from_ref(&arc)), &design, Some(-k * width), &()).unwrap().volumes;
+        let off = (volumes.fill - expected).abs();
+        assert!(off <= volumes.error_bound, "{off} off, {} allowed", volumes.error_bound);
+        assert!(volumes.error_bound < 0.03 * expected, "{} allowed of {expected}", volumes.error_bound);
+    }
+}
+
 /// Checks a surface with nothing but its triangles, the job and the brute force.
 fn examine(job: &Job, surface: &Surface) {
     slopes_and_heights(job, surface);

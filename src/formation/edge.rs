@@ -89,7 +89,7 @@ impl Stroke {
 pub(super) fn left(centre: &Centre, half: f64, drop: f64, chord: f64) -> Result<Vec<EdgePoint>, Fault> {
     let n = centre.plan.len() - 1;
     let mut edge = Edge::new(centre, half);
-    let normals: Vec<DVec2> = centre.plan.windows(2).map(|w| (w[1] - w[0]).normalize_or_zero().perp()).collect();
+    let normals: Vec<DVec2> = normals(centre).collect();
     let beside = |vertex: usize, normal: DVec2| edge_point(centre, vertex, centre.plan[vertex] + half * normal, drop);
     let mut from = beside(0, normals[0]);
     edge.add(Stroke { is_end: true, ..Stroke::new(on_centre(centre, 0), from) })?;
@@ -107,13 +107,11 @@ pub(super) fn left(centre: &Centre, half: f64, drop: f64, chord: f64) -> Result<
         if turns == Turn::Straight && before.dot(after) < 0.0 {
             return Err(Fault::Back { vertex: i });
         }
-        // The mitre is 1 / cos(δ/2) long, the sum of the normals 2 cos(δ/2).
-        let sharp = (before + after).length() < 2.0 / LONGEST_MITRE;
         if turns == Turn::Left {
             edge.add(Stroke::new(from, square))?;
             from = beside(i, after);
             edge.corner = Some(mitre);
-        } else if sharp {
+        } else if is_sharp(before, after) {
             edge.add(Stroke::new(from, square))?;
             from = square;
             for normal in round(before, after, chord / half) {
@@ -138,11 +136,36 @@ pub(super) fn on_centre(centre: &Centre, vertex: usize) -> EdgePoint {
     edge_point(centre, vertex, centre.plan[vertex], 0.0)
 }
 
-/// The normals after `before` to `after` on the outside of a right turn, chords of the unit circle within `chord`.
-fn round(before: DVec2, after: DVec2, chord: f64) -> impl Iterator<Item = DVec2> {
+/// Greatest distance between the arc of a rounded corner, on either side, and its chords.
+pub(super) fn sagitta(centre: &Centre, half: f64, chord: f64) -> f64 {
+    let normals: Vec<DVec2> = normals(centre).collect();
+    let rounded = normals.windows(2).filter(|pair| is_sharp(pair[0], pair[1])).map(|pair| {
+        let (angle, count) = chords(pair[0], pair[1], chord / half);
+        half * (1.0 - (0.5 * angle / count as f64).cos())
+    });
+    rounded.fold(0.0, f64::max)
+}
+
+/// The unit normals of the segments, to the left.
+fn normals(centre: &Centre) -> impl Iterator<Item = DVec2> {
+    centre.plan.windows(2).map(|w| (w[1] - w[0]).normalize_or_zero().perp())
+}
+
+/// Whether a corner between two normals is rounded on its outside: the mitre is 1 / cos(δ/2) long, the sum of the normals 2 cos(δ/2).
+fn is_sharp(before: DVec2, after: DVec2) -> bool {
+    (before + after).length() < 2.0 / LONGEST_MITRE
+}
+
+/// The angle from one normal to another, and the number of chords of the unit circle within `chord` that take it.
+fn chords(before: DVec2, after: DVec2, chord: f64) -> (f64, usize) {
     let angle = before.angle_to(after);
     let step = 2.0 * (1.0 - chord).clamp(0.0, 1.0).acos();
-    let count = (angle.abs() / step).ceil().clamp(1.0, MOST_CHORDS) as usize;
+    (angle, (angle.abs() / step).ceil().clamp(1.0, MOST_CHORDS) as usize)
+}
+
+/// The normals after `before` to `after` on the outside of a right turn, chords of the unit circle within `chord`.
+fn round(before: DVec2, after: DVec2, chord: f64) -> impl Iterator<Item = DVec2> {
+    let (angle, count) = chords(before, after, chord);
     (1..=count).map(move |k| if k == count { after } else { DVec2::from_angle(angle * k as f64 / count as f64).rotate(before) })
 }
 

@@ -1,7 +1,7 @@
 //! From a centre line to the ring of its road.
 
 use super::breaklines::Inside;
-use super::edge::{Centre, EdgePoint, Fault, left, on_centre};
+use super::edge::{Centre, EdgePoint, Fault, left, on_centre, sagitta};
 use super::{Formation, FormationError, Formed};
 use crate::kernel::orientation::{Turn, turn};
 use crate::kernel::segment_tree::SegmentTree;
@@ -111,7 +111,7 @@ fn road(
         role: Role::Outer { polygon },
         vertices: points.iter().map(world).collect(),
         places: points.iter().map(|p| chain.places[p.vertex]).collect(),
-        axis: Some(Axis { name: chain.name.clone(), length, stations }),
+        axis: Some(Axis { name: chain.name.clone(), length, stations, sagitta: sagitta(&centre, half, formation.chord) }),
     };
     Ok((ring, note))
 }

@@ -18,7 +18,7 @@ use crate::mesh::check::{self, HalfEdges, Soundness};
 use crate::mesh::{polygon, volume};
 use crate::model::{CurveKind, Design, Line, LineFeature, Note, Part, Sheet, Terrain, Tin};
 use crate::surface::curves::{self, chained};
-use crate::surface::{Areas, CHORD_SHARE, CONE_BOUND, Certificate, MEASURABLE_HEIGHT, Mark, STRIP_BOUND, Surface};
+use crate::surface::{Areas, CONE_BOUND, Certificate, MEASURABLE_HEIGHT, Mark, Moves, STRIP_BOUND, Surface};
 use glam::DVec3;
 use rustc_hash::FxHashSet;
 
@@ -113,7 +113,7 @@ pub(crate) fn ground(found: &Found) -> Result<(Ground, Option<Patchwork>), Groun
     let lines = lines(found, &number, &design, &edges);
     let finished = found.left.map(|left| finished(found, left)).transpose()?;
     let areas = Areas::of(&design);
-    let (error_bound, simplified) = error_bound(found, &design);
+    let error_bound = error_bound(found, &number, &design, &edges);
     let ground = Ground {
         finished: None,
         levels: levels(found, &lines),
@@ -129,7 +129,7 @@ pub(crate) fn ground(found: &Found) -> Result<(Ground, Option<Patchwork>), Groun
         certificate,
         error_bound,
         simplified: found.surfaces.iter().map(|s| s.simplified).max().unwrap_or(0),
-        simplified_max: simplified,
+        simplified_max: found.surfaces.iter().map(|s| s.simplified_max).fold(0.0, f64::max),
         ground_used: found.patch.triangles.len(),
         notes: found.notes.to_vec(),
         design,
@@ -172,18 +172,36 @@ impl Numbering {
     }
 }
 
-/// Simplifying moves the sheet by at most `simplified_max`, chords lower cones by at most their share of the tolerance.
-fn error_bound(found: &Found, design: &Tin) -> (f64, f64) {
-    let moved = found.surfaces.iter().map(|s| s.simplified_max).fold(0.0, f64::max);
-    let chord = found.designs.iter().map(|d| CHORD_SHARE * d.tolerance).fold(0.0, f64::max);
-    let on_cone = |t: &usize| {
-        let foot = found.shape.foot_of[found.trimmed.from[*t] as usize];
+/// Bound for the error of cut and of fill: a layer on all of the works, one more on cones, and a strip along the borders where the
+/// works do not meet the ground (open ends, walls of one-sided works), as high as the works are deep anywhere. At the daylight line
+/// they have no height.
+fn error_bound(found: &Found, number: &Numbering, design: &Tin, edges: &HalfEdges) -> f64 {
+    let moves: Vec<Moves> =
+        found.surfaces.iter().zip(found.designs).map(|(s, d)| Moves::new(found.line, d, s.simplified_max)).collect();
+    let most = |of: fn(&Moves) -> f64| moves.iter().map(of).fold(0.0, f64::max);
+    let (line, cone) = (most(|m| m.line), most(|m| m.cone));
+    let on_cone = |t: usize| {
+        let foot = found.shape.foot_of[found.trimmed.from[t] as usize];
         foot != NONE && found.shape.feet[foot as usize].on_cone
     };
     let area = |t: usize| volume::plan_area(design.corners(t));
-    let cones = (0..design.triangles.len()).filter(on_cone).map(area).collect::<Sum>().value();
+    let cones = (0..design.triangles.len()).filter(|&t| on_cone(t)).map(area).collect::<Sum>().value();
     let all = (0..design.triangles.len()).map(area).collect::<Sum>().value();
-    (moved * all + chord * cones, moved)
+    let undirected = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
+    let met = met(found).into_iter().filter_map(|([a, b], _)| Some(undirected([number.get(a)?, number.get(b)?])));
+    let met: FxHashSet<[u32; 2]> = met.collect();
+    let open: Vec<[u32; 2]> = edges.open().into_iter().filter(|edge| !met.contains(&undirected(*edge))).collect();
+    let owners = check::owners(&open, design.vertices.len(), &design.triangles);
+    let strips = open.iter().zip(owners).map(|(edge, owner)| {
+        let sheet = if design.parts[owner as usize] == Part::CutSlope { Sheet::Rising } else { Sheet::Falling };
+        let of_sheet =
+            moves.iter().zip(found.designs).filter(|(_, d)| design.parts[owner as usize] == Part::Platform || d.sheet == sheet);
+        let ends = edge.map(|v| design.vertices[v as usize]);
+        of_sheet.map(|(m, _)| m.strip(ends, on_cone(owner as usize))).fold(0.0, f64::max)
+    });
+    let tallied = &found.fed.tallied;
+    let deepest = [&tallied.deepest_cut, &tallied.deepest_fill].into_iter().flatten().map(|d| d.depth).fold(0.0, f64::max);
+    line * all + cone * cones + strips.collect::<Sum>().value() * (deepest + line + cone)
 }
 
 /// Measures the design cut off at the ground; what cutting does not change is taken from the whole sheets.

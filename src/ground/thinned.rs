@@ -56,7 +56,7 @@ mod tests {
     fn line(role: Role, vertices: Vec<DVec3>) -> Line {
         let places = vec![Place::default(); vertices.len()];
         let stations = vec![0.0; vertices.len() + 1];
-        let axis = Some(Axis { name: "a".into(), length: 1.0, stations });
+        let axis = Some(Axis { name: "a".into(), length: 1.0, stations, sagitta: 0.0 });
         Line { chains: vec![Chain { name: "line 1".into(), role, vertices, places, axis }], breaklines: Vec::new() }
     }
 

@@ -94,6 +94,27 @@ impl HalfEdges {
     }
 }
 
+/// The triangle of each of the open edges `open` of a mesh.
+pub fn owners(open: &[[u32; 2]], vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
+    let mut on_border = vec![false; vertices];
+    open.as_flattened().iter().for_each(|&v| on_border[v as usize] = true);
+    let number: FxHashMap<[u32; 2], usize> = open.iter().zip(0..).map(|(edge, i)| (*edge, i)).collect();
+    let mut owners = vec![0; open.len()];
+    for (t, corners) in triangles.iter().enumerate() {
+        let border = corners.map(|v| on_border[v as usize]);
+        for i in 0..3 {
+            let next = (i + 1) % 3;
+            if border[i]
+                && border[next]
+                && let Some(&edge) = number.get(&[corners[i], corners[next]])
+            {
+                owners[edge] = t as u32;
+            }
+        }
+    }
+    owners
+}
+
 /// Checks a mesh with the edges `edges`.
 pub fn check(points: &[DVec3], triangles: &[[u32; 3]], edges: &HalfEdges) -> Soundness {
     check_with(points, triangles, edges, &edges.open())

@@ -58,6 +58,8 @@ pub struct Axis {
     /// Station on the centre line of every vertex of the ring, and of its first vertex once more for the closing segment;
     /// between neighbours linear. The left edge rises from 0 to `length`, the right edge comes back, end caps are constant.
     pub stations: Vec<f64>,
+    /// Greatest distance in plan between a rounded corner and its chords; 0 where none is rounded.
+    pub sagitta: f64,
 }
 
 /// A line inside a ring that shapes the surface of its platform.

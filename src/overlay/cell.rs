@@ -28,6 +28,15 @@ impl Patch {
         Self { corners, first: b - a, second: c - a, double_area: double_area(corners) }
     }
 
+    /// Whether it is so thin that nothing can be measured in its coordinates: they are right to a few units in the last place of the
+    /// square of its longest side, and its area is less than that. Such slivers come from rounding: a side cut twice at nearly the
+    /// same place, corners nearly on one line.
+    pub(super) fn is_sliver(&self) -> bool {
+        let square = |side: DVec3| side.truncate().length_squared();
+        let longest = square(self.first).max(square(self.second)).max(square(self.second - self.first));
+        self.double_area <= ROUNDING * longest
+    }
+
     /// A point of the other mesh in the coordinates of the patch.
     #[inline]
     pub(super) fn corner(&self, p: DVec3) -> Corner {
@@ -54,6 +63,9 @@ impl Patch {
         self.corners[0] + (self.first * c[0] + self.second * c[1]) / self.double_area
     }
 }
+
+/// A few units in the last place.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Longest side of a triangle in plan.
 fn longest_side([a, b, c]: &[DVec3; 3]) -> f64 {
@@ -116,7 +128,6 @@ impl Ring {
     /// Whether this is more than the sliver that rounding may leave where the patch and `other` only touch: corners are right to
     /// a few units in the last place of the larger triangle, along a side of either.
     pub(super) fn has_area(&self, patch: &Patch, other: &[DVec3; 3]) -> bool {
-        const ROUNDING: f64 = 64.0 * f64::EPSILON;
         let [own, other] = [&patch.corners, other].map(longest_side);
         self.measure().0 / patch.double_area > ROUNDING * own * other
     }

@@ -44,8 +44,11 @@ impl<'a> Walker<'a> {
     /// Calls `visit` with every triangle that shares plan area with the patch and with the part they share, each once.
     ///
     /// From one triangle inside, neighbours are entered across the edges that run through the patch. All that cannot be reached so
-    /// has a rim inside the patch, so the triangles at the rim are tried too.
+    /// has a rim inside the patch, so the triangles at the rim are tried too. A sliver shares no area with anything.
     pub(super) fn over(&mut self, patch: &Patch, mut visit: impl FnMut(u32, &Ring)) {
+        if patch.is_sliver() {
+            return;
+        }
         self.round = self.round.wrapping_add(1);
         if self.round == 0 {
             self.seen.fill(0);
@@ -80,6 +83,9 @@ impl<'a> Walker<'a> {
 
     /// Like [`Self::over`], but asks the tree for all triangles: also finds those that lie on others.
     pub(super) fn over_all(&mut self, patch: &Patch, mut visit: impl FnMut(u32, &Ring)) {
+        if patch.is_sliver() {
+            return;
+        }
         self.round = self.round.wrapping_add(1).max(1);
         let bounds = PlanBox::of(patch.corners.map(DVec3::truncate));
         let mesh = self.mesh;

@@ -214,7 +214,8 @@ impl Network {
                 .windows(2)
                 .map(|w| (w[1].z - w[0].z).abs() / w[0].truncate().distance(w[1].truncate()))
                 .fold(flatter * STEEPEST_CHORD, f64::max);
-            for chord in simplify::simplify(&points, steeper, bound, steepest, CHORD_SPACING) {
+            let kept = runs.kept_ends(&run);
+            for chord in simplify::simplify(&points, kept, steeper, bound, steepest, CHORD_SPACING) {
                 self.add_chord(&run, &points, &chord, &mut used);
             }
         }
@@ -381,6 +382,14 @@ impl<'a> Runs<'a> {
         let (p, q) = (&self.pieces[p as usize], &self.pieces[q as usize]);
         let through = p.ends[1] == q.ends[0] || p.ends[0] == q.ends[1];
         !through || p.given[0].chain != q.given[0].chain || p.wanted != q.wanted || p.interior != q.interior
+    }
+
+    /// The ends of a run at which its first or last edge must stay: where a line with a slope on one side ends, or meets another, the
+    /// slope may end in the ruling at right angles to that edge, and would turn with it.
+    fn kept_ends(&self, run: &Run) -> [bool; 2] {
+        let one_sided = run.wanted[0] != run.wanted[1];
+        let ends = [run.nodes[0], run.nodes[run.nodes.len() - 1]];
+        ends.map(|node| one_sided && self.fixed(node))
     }
 
     fn all(&self, points: &[DVec3]) -> Vec<Run> {

@@ -17,7 +17,8 @@ pub(super) fn weld(line: &Line, frame: &Frame, sign: f64) -> (Vec<DVec3>, Vec<Ve
         DVec3::new(p.x, p.y, sign * p.z)
     };
     let all: Vec<DVec3> = line.chains.iter().flat_map(|c| &c.vertices).map(|&v| local(v)).collect();
-    let first = first_within(line, &all);
+    // A simple ring does not meet itself.
+    let first = if is_ring(line) { (0..all.len()).collect() } else { first_within(&all) };
     let mut points: Vec<DVec3> = Vec::with_capacity(all.len());
     let mut node_of: Vec<u32> = Vec::with_capacity(all.len());
     for (i, &p) in all.iter().enumerate() {
@@ -39,13 +40,14 @@ pub(super) fn weld(line: &Line, frame: &Frame, sign: f64) -> (Vec<DVec3>, Vec<Ve
     (points, of_vertex)
 }
 
+/// Whether the line is one ring.
+fn is_ring(line: &Line) -> bool {
+    line.chains.len() == 1 && line.chains[0].closed()
+}
+
 /// For each point the first one within the weld distance, itself at the latest.
-fn first_within(line: &Line, points: &[DVec3]) -> Vec<usize> {
+fn first_within(points: &[DVec3]) -> Vec<usize> {
     let own: Vec<usize> = (0..points.len()).collect();
-    if line.chains.len() == 1 && line.chains[0].closed() {
-        // A simple ring does not meet itself.
-        return own;
-    }
     let coordinates: Vec<[f64; 3]> = points.iter().map(|p| p.to_array()).collect();
     // Validated coordinates are finite, the only thing the tree could object to.
     let Ok(tree) = ImmutableKdTree::<f64, 3>::new_from_slice(&coordinates) else { return own };
@@ -79,10 +81,10 @@ impl Segments {
     /// Adds nodes where segments meet at the same height: at a crossing, or where one ends on another. Crossings at different
     /// heights stay: there one line lies below the slope of the other.
     pub(super) fn noded(mut self, points: &mut Vec<DVec3>, line: &Line) -> Self {
-        if line.chains.len() == 1 && line.chains[0].closed() {
-            // A simple ring does not meet itself.
+        if is_ring(line) {
             return self;
         }
+        let given = points.len();
         let flat: Vec<(usize, usize)> =
             self.by_chain.iter().enumerate().flat_map(|(c, list)| (0..list.len()).map(move |i| (c, i))).collect();
         let ends: Vec<[u32; 2]> = flat.iter().map(|&(c, i)| [self.by_chain[c][i][0].1, self.by_chain[c][i][1].1]).collect();
@@ -110,9 +112,15 @@ impl Segments {
             }
             true
         });
+        // Where more than two segments cross, each pair has found the place for itself.
+        let first = if points.len() > given { first_within(points) } else { Vec::new() };
+        let mut node_of: Vec<u32> = (0..points.len() as u32).collect();
+        for (i, &first) in first.iter().enumerate().skip(given) {
+            node_of[i] = node_of[first];
+        }
         for (s, at, node) in marks {
             let (c, i) = flat[s];
-            self.by_chain[c][i].push((at, node));
+            self.by_chain[c][i].push((at, node_of[node as usize]));
         }
         for list in self.by_chain.iter_mut().flatten().filter(|list| list.len() > 2) {
             list.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -138,4 +146,55 @@ fn meeting([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> Option<([f64; 2], DVec3)> 
     let crosses = at.iter().all(|t| *t > 0.0 && *t < 1.0);
     let (p, q) = (a.lerp(b, at[0]), c.lerp(d, at[1]));
     (crosses && (p.z - q.z).abs() <= WELD_DISTANCE).then_some((at, p))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Chain, Place, Role};
+
+    fn line(chains: &[&[[f64; 3]]]) -> Line {
+        let chain = |points: &&[[f64; 3]]| Chain {
+            name: "a".into(),
+            role: Role::Open,
+            vertices: points.iter().map(|&p| DVec3::from(p)).collect(),
+            places: vec![Place::default(); points.len()],
+            axis: None,
+        };
+        Line { chains: chains.iter().map(chain).collect(), ..Line::default() }
+    }
+
+    /// Nodes in use, and pieces between them.
+    fn count(line: &Line) -> (usize, usize) {
+        let (mut points, of_vertex) = weld(line, &Frame::WORLD, 1.0);
+        let segments = Segments::new(line, &of_vertex).noded(&mut points, line);
+        let pieces: Vec<[u32; 2]> =
+            segments.by_chain.iter().flatten().flat_map(|s| s.windows(2).map(|w| [w[0].1, w[1].1])).collect();
+        for [a, b] in &pieces {
+            assert!(points[*a as usize].distance(points[*b as usize]) > WELD_DISTANCE, "a piece without length");
+        }
+        let mut used: Vec<u32> = pieces.as_flattened().to_vec();
+        used.sort_unstable();
+        used.dedup();
+        (used.len(), pieces.len())
+    }
+
+    /// Each pair of lines finds its own crossing; they are one node all the same, with 2·n pieces around it.
+    #[test]
+    fn lines_through_one_place_share_a_node() {
+        let star: Vec<[[f64; 3]; 2]> = (0..7)
+            .map(|i| (0.3 + 0.4 * f64::from(i)).sin_cos())
+            .map(|(s, c)| [[3.1 - 9.0 * c, 4.7 - 9.0 * s, 2.0], [3.1 + 5.0 * c, 4.7 + 5.0 * s, 2.0]])
+            .collect();
+        let chains: Vec<&[[f64; 3]]> = star.iter().map(|s| &s[..]).collect();
+        assert_eq!(count(&line(&chains)), (15, 14));
+    }
+
+    /// A line that runs back over itself, crossed where rounding gives the two ways different heights.
+    #[test]
+    fn a_line_over_itself_is_crossed_once() {
+        let there_and_back = [[0.0, 0.0, 0.0], [14.0, 0.0, 0.28], [0.0, 0.0, 0.0]];
+        let across = [[12.0, 2.0, 0.4000000000000001], [12.0, -6.0, -0.24000000000000005]];
+        assert_eq!(count(&line(&[&there_and_back, &across])), (5, 6));
+    }
 }

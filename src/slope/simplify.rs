@@ -34,11 +34,18 @@ pub struct Chord {
 /// aside covers at most `Δz + k·Δplan` less. A chord is refused when it would be as steep as the slope, or when feet on it
 /// would not follow one another in order.
 ///
-/// `steepest` is the bound for the gradient of chords, `spacing` the least distance between vertices along a chord, both in the
+/// `kept` tells whether the first and the last edge of the run stay as they are; `steepest` is the bound for the gradient of chords, `spacing` the least distance between vertices along a chord, both in the
 /// units of the run.
-pub fn simplify(run: &[DVec3], slope: f64, bound: f64, steepest: f64, spacing: f64) -> Vec<Chord> {
+pub fn simplify(run: &[DVec3], kept: [bool; 2], slope: f64, bound: f64, steepest: f64, spacing: f64) -> Vec<Chord> {
     let mut chords = Vec::new();
-    let mut pending = vec![(0, run.len() - 1)];
+    let last = run.len() - 1;
+    let inner = [usize::from(kept[0]), last - usize::from(kept[1])];
+    let mut pending = if inner[0] < inner[1] {
+        vec![(inner[1], last), (inner[0], inner[1]), (0, inner[0])]
+    } else {
+        (0..last).rev().map(|i| (i, i + 1)).collect()
+    };
+    pending.retain(|(from, to)| from < to);
     while let Some((from, to)) = pending.pop() {
         match split_at(run, from, to, slope, bound, steepest, spacing) {
             Ok(dropped) => chords.push(Chord { from, to, dropped }),
@@ -118,16 +125,33 @@ mod tests {
     #[test]
     fn collinear_vertices_go_and_keep_their_place() {
         let run = run(&[(0.0, 0.0, 0.0), (1.0, 0.0, 0.1), (3.0, 0.0, 0.3), (4.0, 0.0, 0.4)]);
-        let chords = simplify(&run, 0.5, 1e-9, 0.499, 1e-6);
+        let chords = simplify(&run, [false; 2], 0.5, 1e-9, 0.499, 1e-6);
         assert_eq!(chords.len(), 1);
         let along: Vec<f64> = chords[0].dropped.iter().map(|d| d.along).collect();
         assert_eq!(along, [0.25, 0.75]);
     }
 
     #[test]
+    fn edges_at_the_ends_are_kept_where_they_must() {
+        let points: Vec<(f64, f64, f64)> = (0..6).map(|i| (f64::from(i), 0.0, 0.0)).collect();
+        for (count, kept, expected) in [
+            (6, [false, false], vec![(0, 5)]),
+            (6, [true, false], vec![(0, 1), (1, 5)]),
+            (6, [false, true], vec![(0, 4), (4, 5)]),
+            (6, [true, true], vec![(0, 1), (1, 4), (4, 5)]),
+            (3, [true, true], vec![(0, 1), (1, 2)]),
+            (2, [true, true], vec![(0, 1)]),
+            (2, [true, false], vec![(0, 1)]),
+        ] {
+            let chords = simplify(&run(&points[..count]), kept, 0.5, 0.1, 0.499, 1e-6);
+            assert_eq!(chords.iter().map(|c| (c.from, c.to)).collect::<Vec<_>>(), expected, "{count} {kept:?}");
+        }
+    }
+
+    #[test]
     fn a_step_back_is_kept() {
         let run = run(&[(0.0, 0.0, 0.0), (2.0, 0.0, 0.0), (1.9, 0.0, 0.0), (4.0, 0.0, 0.0)]);
-        let chords = simplify(&run, 0.5, 0.1, 0.499, 1e-6);
+        let chords = simplify(&run, [false; 2], 0.5, 0.1, 0.499, 1e-6);
         assert!(chords.len() > 1, "the vertex that steps back must stay");
     }
 
@@ -136,7 +160,7 @@ mod tests {
         let (radius, slope, bound) = (500.0, 0.5, 1e-3);
         let run: Vec<DVec3> =
             (0..=4000).map(|i| f64::from(i) / 4000.0).map(|t| DVec3::new(radius * t.cos(), radius * t.sin(), 3.0 * t)).collect();
-        let chords = simplify(&run, slope, bound, 0.499, 1e-6);
+        let chords = simplify(&run, [false; 2], slope, bound, 0.499, 1e-6);
         // Sagitta c²/8R ≤ bound/slope gives the longest chord; halving may leave chords up to twice as short.
         let longest = (8.0 * radius * bound / slope).sqrt();
         let least = (radius / longest).floor() as usize;

@@ -11,6 +11,7 @@ mod room;
 mod solve;
 mod touching;
 
+pub(crate) use body::Moves;
 pub use buried::Buried;
 pub use certificate::Certificate;
 pub(crate) use certificate::{CONE_BOUND, MEASURABLE_HEIGHT, STRIP_BOUND};
@@ -33,13 +34,14 @@ use crate::slope::refine::Cut;
 use crate::slope::size;
 use crate::slope::trim::{self, Sheet};
 use body::Body;
+
 use solve::Solved;
 
 /// Share of the tolerance that simplifying the line may use.
 const SIMPLIFY_SHARE: f64 = 1.0 / 3.0;
 
 /// Share of the tolerance that chords of cones may use. The rest is reserve.
-pub(crate) const CHORD_SHARE: f64 = 1.0 / 3.0;
+const CHORD_SHARE: f64 = 1.0 / 3.0;
 
 /// How far beyond the outer distance the sheet is followed, relative to its depth there and at least this many length units.
 const BEYOND_REACH: f64 = 1e-3;
@@ -369,7 +371,10 @@ impl Task<'_> {
             go_on("volumes")?;
             rayon::join(
                 || Areas::of(&body.tin),
-                || body.volumes(line, design, reference, ends, network.simplified_max, cut.chord),
+                || {
+                    let moves = body::Moves::new(line, design, network.simplified_max);
+                    body.volumes(reference.unwrap_or_else(|| body::reference(line, design, ends)), &moves, &open)
+                },
             )
         } else {
             Default::default()

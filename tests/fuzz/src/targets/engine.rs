@@ -53,24 +53,29 @@ pub(crate) fn run(bytes: &[u8]) {
     let shown = || format!("{}\n{wishes:?}\n", drawn::geojson(&line));
     limits::show(&shown);
     match surface::build(&line, &design, None, &()) {
-        Ok(surface) => Look { line: &line, design: &design, surface: &surface }.all(),
-        Err(error @ (SurfaceError::Unclosed { .. } | SurfaceError::Unsound { .. } | SurfaceError::Flat { .. })) => {
-            let kind = match error {
-                SurfaceError::Unclosed { .. } => "unclosed",
-                SurfaceError::Flat { .. } => "flat",
-                _ => "unsound",
-            };
-            limits::note(kind, bytes, &format!("{error}\n{}", shown()));
-        }
-        Err(SurfaceError::Cancelled) => panic!("nobody cancelled"),
-        Err(error) => assert!(error.to_string().contains("\n   = help: "), "{error}"),
+        Ok(surface) => Look { line: &line, design: &design, surface: &surface, bytes, shown: &shown }.all(),
+        Err(error) => refused(&error, bytes, &shown),
     }
+}
+
+/// Limits of the program are noted, other refusals have a cure.
+fn refused(error: &SurfaceError, bytes: &[u8], shown: &dyn Fn() -> String) {
+    let kind = match error {
+        SurfaceError::Unclosed { .. } => "unclosed",
+        SurfaceError::Flat { .. } => "flat",
+        SurfaceError::Unsound { .. } => "unsound",
+        SurfaceError::Cancelled => panic!("nobody cancelled"),
+        _ => return assert!(error.to_string().contains("\n   = help: "), "{error}"),
+    };
+    limits::note(kind, bytes, &format!("{error}\n{}", shown()));
 }
 
 struct Look<'a> {
     line: &'a Line,
     design: &'a Design,
     surface: &'a Surface,
+    bytes: &'a [u8],
+    shown: &'a dyn Fn() -> String,
 }
 
 impl Look<'_> {
@@ -134,9 +139,11 @@ impl Look<'_> {
         let lines = self.polylines();
         let (rising, k) = (self.design.sheet == Sheet::Rising, self.design.slope.ratio());
         let tin = &self.surface.tin;
+        let plans: Vec<[DVec2; 3]> = (0..tin.triangles.len()).map(|t| self.corners(t).map(DVec3::truncate)).collect();
+        let boxes: Vec<[DVec2; 2]> = plans.iter().map(|[a, b, c]| [a.min(*b).min(*c), a.max(*b).max(*c)]).collect();
         let (mut lo, mut hi) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        for v in &tin.vertices {
-            (lo, hi) = (lo.min(v.truncate()), hi.max(v.truncate()));
+        for [low, high] in &boxes {
+            (lo, hi) = (lo.min(*low), hi.max(*high));
         }
         let rings = lines.iter().any(|l| l.closed);
         const SIDE: usize = 12;
@@ -147,12 +154,17 @@ impl Look<'_> {
             let margin = 1e-9 * (hi - lo).max_element();
             let mut count = 0;
             let mut near = false;
-            for t in 0..tin.triangles.len() {
-                let [a, b, c] = self.corners(t).map(DVec3::truncate);
+            let mut on_slope = false;
+            for (t, &[low, high]) in boxes.iter().enumerate() {
+                if p.x < low.x - margin || p.y < low.y - margin || p.x > high.x + margin || p.y > high.y + margin {
+                    continue;
+                }
+                let [a, b, c] = plans[t];
                 let sides = [(a, b), (b, c), (c, a)].map(|(a, b)| (b - a).perp_dot(p - a) / (b - a).length());
                 let least = sides[0].min(sides[1]).min(sides[2]);
                 count += usize::from(least > margin);
                 near |= least.abs() <= margin;
+                on_slope |= least > margin && tin.parts[t] != Part::Platform;
             }
             assert!(count <= 1, "({}, {}) is covered {count} times", p.x, p.y);
             if near {
@@ -175,7 +187,6 @@ impl Look<'_> {
                 Extent::Height(h) | Extent::Distance(h) => {
                     let far = if matches!(self.design.extent, Extent::Height(_)) { h / k } else { h };
                     // On slopes: no further from the line than the longest ruling.
-                    let on_slope = (0..tin.triangles.len()).any(|t| tin.parts[t] != Part::Platform && inside(self.corners(t), p));
                     if on_slope {
                         let d = distance(&lines, world.truncate());
                         assert!(d <= far + slack / k + slack, "({}, {}) is {d} from the line, {far} asked for", world.x, world.y);
@@ -211,17 +222,13 @@ impl Look<'_> {
         let design = Design { sheet, extent, ..self.design.clone() };
         let other = match surface::build(&line, &design, Some(-self.surface.volumes.reference), &()) {
             Ok(other) => other,
-            Err(error) => panic!("upside down: {error}"),
+            // Rounding, and shifts of what touches, differ upside down.
+            Err(error) => return refused(&error, self.bytes, self.shown),
         };
         let (a, b) = (&self.surface.volumes, &other.volumes);
         let bound = 1e-9 * (a.cut + a.fill) + 1e-9 + a.error_bound + b.error_bound;
         assert!((a.cut - b.fill).abs() <= bound && (a.fill - b.cut).abs() <= bound, "{a:?} {b:?}");
     }
-}
-
-fn inside(corners: [DVec3; 3], p: DVec2) -> bool {
-    let [a, b, c] = corners.map(DVec3::truncate);
-    [(a, b), (b, c), (c, a)].iter().all(|(a, b)| (*b - *a).perp_dot(p - *a) > 0.0)
 }
 
 fn distance(lines: &[Polyline], p: DVec2) -> f64 {

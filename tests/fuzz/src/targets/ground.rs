@@ -3,7 +3,7 @@
 use super::choices::Choices;
 use super::messages::telling;
 use super::oracle::{self, Polyline};
-use super::{drawn, limits};
+use super::{drawn, limits, tins};
 use glam::{DVec2, DVec3};
 use slopegen::ground::{Amounts, Ground, GroundError, Options, Site};
 use slopegen::kernel::frame::Frame;
@@ -68,7 +68,11 @@ pub(crate) fn run(bytes: &[u8]) {
         }
     }
     let shown = || {
-        format!("{}{}{k} {cut} {side:?} {width:?} {direction} {tolerance} {options:?}\n", drawn::geojson(&line), obj(&terrain))
+        format!(
+            "{}{}{k} {cut} {side:?} {width:?} {direction} {tolerance} {options:?}\n",
+            drawn::geojson(&line),
+            tins::obj(&terrain)
+        )
     };
     limits::show(&shown);
     match site.build(&designs, &options, &()) {
@@ -129,11 +133,8 @@ fn ground(choices: &mut Choices<'_>, k: f64) -> Terrain {
     Terrain { frame: Frame::WORLD, vertices, triangles }
 }
 
-fn obj(terrain: &Terrain) -> String {
-    let vertices = terrain.vertices.iter().map(|v| format!("v {} {} {}\n", v.x, v.y, v.z));
-    let faces = terrain.triangles.iter().map(|t| format!("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1));
-    vertices.chain(faces).collect()
-}
+/// Lower heights count for the volumes, but not for the meshes.
+const TOUCH: f64 = 1e-8;
 
 struct Look<'a> {
     line: &'a Line,
@@ -205,7 +206,7 @@ impl Look<'_> {
         let total = self.built.tallied.total;
         let whole: f64 = (0..self.terrain.triangles.len()).map(|t| area(self.terrain.corners(t))).sum();
         let high = self.terrain.vertices.iter().chain(&after.vertices).fold(0.0, |m: f64, v| m.max(v.z.abs()));
-        let bound = ROUNDING * (1.0 + whole) * (1.0 + high);
+        let bound = (ROUNDING * (1.0 + high) + TOUCH) * (1.0 + whole);
         match overlay::between(&after, self.terrain, None) {
             Ok(found) => {
                 assert!((found.cut - total.cut).abs() <= bound, "cut {}, by the overlay {}", total.cut, found.cut);

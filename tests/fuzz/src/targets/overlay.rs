@@ -3,6 +3,7 @@
 use super::choices::Choices;
 use super::exact::{self, Sums};
 use super::tins::Whole;
+use super::{limits, tins};
 use slopegen::overlay::{Between, MOST_DOUBLE, OverlayError, Surface, between, to_elevation};
 
 /// Rounding, relative to the product of area and height.
@@ -28,6 +29,9 @@ pub(crate) fn run(bytes: &[u8]) {
     if within.as_ref().is_some_and(|mesh| exact::double(mesh) > 0.0) {
         return;
     }
+    limits::show(&|| {
+        [Some(&terrains[0]), Some(&terrains[1]), area.as_ref()].map(|t| t.map(tins::obj).unwrap_or_default()).join("\n")
+    });
     let found = between(&terrains[0], &terrains[1], area.as_ref());
     check(&design, &existing, within.as_ref(), &found);
     let level = i64::from(choices.byte() % 13) - 6;

@@ -14,6 +14,13 @@ pub(crate) struct Whole {
     pub(crate) triangles: Vec<[usize; 3]>,
 }
 
+/// A ground as an OBJ file.
+pub(crate) fn obj(terrain: &Terrain) -> String {
+    let vertices = terrain.vertices.iter().map(|v| format!("v {} {} {}\n", v.x, v.y, v.z));
+    let faces = terrain.triangles.iter().map(|t| format!("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1));
+    vertices.chain(faces).collect()
+}
+
 /// Twice the area of a triangle in plan.
 pub(crate) fn twice([a, b, c]: [[i64; 3]; 3]) -> i64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
