@@ -7,6 +7,7 @@ use crate::report::ReportFormat;
 use crate::write::{Target, UnknownFormat};
 use std::ffi::{OsStr, OsString};
 use std::fmt;
+use std::ops::RangeInclusive;
 
 /// The smallest tolerance, height, distance and cell: what coordinates of lines are told apart by.
 pub(super) const LEAST_LENGTH: f64 = crate::validate::MERGE_DISTANCE;
@@ -85,17 +86,51 @@ impl Checks {
         }))
     }
 
-    /// Where reports go that are JSON or text: to standard output as text besides, unless quiet.
+    /// A whole number of `things`.
+    pub(super) fn whole(
+        &mut self,
+        option: &str,
+        text: Option<&String>,
+        things: &str,
+        range: RangeInclusive<usize>,
+    ) -> Option<usize> {
+        text.and_then(|text| self.take(number::whole(option, text, things, range)))
+    }
+
+    /// Outputs, each in the format its name ends in.
+    pub(super) fn outputs<F>(
+        &mut self,
+        arguments: &[OsString],
+        format: impl Fn(&Target) -> Result<F, UnknownFormat>,
+    ) -> Vec<(Target, F)> {
+        let with_format = |target: Target| self.format(format(&target)).map(|format| (target, format));
+        targets(arguments).into_iter().filter_map(with_format).collect()
+    }
+
+    /// Outputs whose names must all end in one of `known`.
+    pub(super) fn ending(
+        &mut self,
+        arguments: &[OsString],
+        what: &'static str,
+        known: &[&str],
+        phrase: &'static str,
+    ) -> Vec<Target> {
+        let targets = targets(arguments);
+        for target in &targets {
+            self.format(ending(target, what, known, phrase));
+        }
+        targets
+    }
+
+    /// Where reports go: to standard output as text besides, unless quiet.
+    pub(super) fn reports(&mut self, arguments: &[OsString], quiet: bool) -> Vec<(Target, ReportFormat)> {
+        shown(self.outputs(arguments, ReportFormat::of), quiet)
+    }
+
+    /// The same for reports that are JSON or text.
     pub(super) fn plain_reports(&mut self, arguments: &[OsString], quiet: bool) -> Vec<(Target, ReportFormat)> {
-        let mut reports = Vec::new();
-        for target in targets(arguments) {
-            self.format(ending(&target, "report", &["json", "txt"], "`.json` or `.txt`"));
-            reports.extend(ReportFormat::of(&target).ok().map(|format| (target, format)));
-        }
-        if !reports.iter().any(|(target, _)| *target == Target::Stdout) && !quiet {
-            reports.push((Target::Stdout, ReportFormat::Text));
-        }
-        reports
+        let plain = |target: &Target| ending(target, "report", &["json", "txt"], "`.json` or `.txt`");
+        shown(self.outputs(arguments, |target| plain(target).and_then(|()| ReportFormat::of(target))), quiet)
     }
 
     pub(super) fn finish<T>(self, job: Option<T>) -> Result<T, UsageErrors> {
@@ -110,6 +145,13 @@ impl Checks {
 pub(super) fn placed(message: &str, option: &str, text: &str) -> String {
     let (what, rest) = message.split_once('\n').unwrap_or((message, ""));
     format!("{what}\n  --> {option} {text}\n{rest}").trim_end().to_owned()
+}
+
+/// Adds the text report that is seen where nothing else goes to standard output, unless quiet.
+fn shown(mut reports: Vec<(Target, ReportFormat)>, quiet: bool) -> Vec<(Target, ReportFormat)> {
+    let is_used = reports.iter().any(|(target, _)| *target == Target::Stdout);
+    reports.extend((!is_used && !quiet).then_some((Target::Stdout, ReportFormat::Text)));
+    reports
 }
 
 /// Where arguments lead.

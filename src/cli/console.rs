@@ -2,7 +2,7 @@
 
 mod paint;
 
-use super::args::Running;
+use super::running::Running;
 use crate::model::{Memory, Note};
 use crate::pipeline::{Observer, WRITING};
 use crate::report::ReportFormat;

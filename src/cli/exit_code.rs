@@ -1,7 +1,7 @@
 //! What the process exits with.
 
-use super::NoThreads;
 use super::checks::UsageErrors;
+use super::running::NoThreads;
 use super::selftest::SelftestFailed;
 use crate::ground::GroundError;
 use crate::pipeline::{Beyond, Error, NotPassed, NotVerified};

@@ -1,7 +1,7 @@
 //! A mesh from anywhere, looked at as it is.
 
 use super::watch::{CHECKING, Observer, READING, Stopwatch, WRITING};
-use super::{Error, figures, room};
+use super::{Error, desk, figures, room};
 use crate::mesh::quality::{self, Bound, Kind, Mesh, Options};
 use crate::model::{Defect, Defects, Note, Part, Slope};
 use crate::read::terrain::{RawFaces, RawMesh, read_mesh};
@@ -62,7 +62,7 @@ pub struct Looked {
 pub fn check(job: &CheckJob, observer: &dyn Observer) -> Result<Looked, Error> {
     let watch = Stopwatch::new(observer);
     let targets: Vec<Target> = job.reports.iter().map(|(target, _)| target.clone()).collect();
-    let mut outputs = Outputs::open(&targets, std::slice::from_ref(&job.path))?;
+    let outputs = Outputs::open(&targets, std::slice::from_ref(&job.path))?;
     watch.stage_of(READING);
     let raw = read_mesh(&job.path, job.format, &job.pick, &watch.memory())?;
     let corners = match &raw.faces {
@@ -78,14 +78,8 @@ pub fn check(job: &CheckJob, observer: &dyn Observer) -> Result<Looked, Error> {
     let mut report = look(raw, &options, &watch);
     report.units = unit.into();
     watch.stage_of(WRITING);
-    // Standard output last: files can still be taken back.
-    let mut order: Vec<usize> = (0..targets.len()).collect();
-    order.sort_by_key(|&i| (targets[i] == Target::Stdout, targets[i].is_stream()));
-    for i in order {
-        outputs.write(i, |out| job.reports[i].1.write_check(out, &report))?;
-    }
-    outputs.commit()?;
-    Ok(Looked { report, written: targets.into_iter().filter(|target| !target.is_stream()).collect() })
+    let written = desk::write_reports(outputs, &job.reports, |format, out| format.write_check(out, &report))?;
+    Ok(Looked { report, written })
 }
 
 fn look(raw: RawMesh, options: &Options, watch: &Stopwatch<'_>) -> CheckReport {

@@ -1,7 +1,7 @@
 //! What differs between two reports, or between two surfaces.
 
 use super::watch::{Named, Observer, Stopwatch, WRITING};
-use super::{Error, read_ground, room};
+use super::{Error, desk, read_ground, room};
 use crate::overlay::{self, AREA_ROUNDING, Between, Depth, OverlayError, SAME_HEIGHT};
 use crate::read::terrain::TerrainOptions;
 use crate::read::{Document, InputFormat, Source, read_document};
@@ -113,7 +113,7 @@ impl std::error::Error for Beyond {}
 pub fn diff(job: &DiffJob, observer: &dyn Observer) -> Result<Differed, Error> {
     let watch = Stopwatch::new(observer);
     let targets: Vec<Target> = job.reports.iter().map(|(target, _)| target.clone()).collect();
-    let mut outputs = Outputs::open(&targets, &[&job.first, &job.second])?;
+    let outputs = Outputs::open(&targets, &[&job.first, &job.second])?;
     let documents = (read_document(&job.first)?, read_document(&job.second)?);
     let mut report = match documents {
         (Some(first), Some(second)) => reports(&first, &second, &job.bounds, &watch)?,
@@ -132,11 +132,9 @@ pub fn diff(job: &DiffJob, observer: &dyn Observer) -> Result<Differed, Error> {
     report.warnings = watch.notes().iter().map(|note| Warning::of(note, BTreeMap::new())).collect();
     report.passed = report.bounds.iter().all(|row| row.passed);
     watch.stage_of(WRITING);
-    for (index, (_, format)) in job.reports.iter().enumerate() {
-        outputs.write(index, |out| format.write_plain(out, &report, || render_diff(&report)))?;
-    }
-    outputs.commit()?;
-    Ok(Differed { report, written: targets.into_iter().filter(|target| !target.is_stream()).collect() })
+    let text = || render_diff(&report);
+    let written = desk::write_reports(outputs, &job.reports, |format, out| format.write_plain(out, &report, text))?;
+    Ok(Differed { report, written })
 }
 
 fn empty(inputs: Vec<Input>, unit: String) -> DiffReport {
