@@ -13,7 +13,7 @@ use crate::mesh::fingerprint::fingerprint;
 use crate::model::{Bulking, Line, LineFeature, Note, Sheet, Terrain, Tin};
 use crate::plot::{self, Drawing, OnGround, Scene};
 use crate::read::Source;
-use crate::report::{CrossfallFigures, Report, ReportFormat, ResultFigures, RunRecord, write_station_table};
+use crate::report::{CrossfallFigures, Report, ReportFormat, ResultFigures, RunRecord, Warning, write_station_table};
 use crate::setout::{self, Stake};
 use crate::slope::levels::LEVEL_SNAP;
 use crate::surface::{self, Watch as _};
@@ -141,7 +141,7 @@ pub fn build_at(desk: Desk<'_>, job: &BuildJob, observer: &dyn Observer) -> Resu
     let local = local_origin(job, &design, finished.as_ref());
     if let Some(note) = coarse(job, &design, finished.as_ref(), local) {
         watch.note(&note);
-        report.warnings.push(figures::warning(&note));
+        report.warnings.push(Warning::plain(&note));
     }
     let names = Names::of(job);
     let earthworks = report.volumes.as_ref().filter(|_| job.ground.is_some());

@@ -10,7 +10,6 @@ use crate::report::{CheckReport, Checked, ReportFormat, Warning};
 use crate::surface::Watch as _;
 use crate::terrain;
 use crate::write::{Outputs, Target};
-use std::collections::BTreeMap;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -101,7 +100,7 @@ fn look(raw: RawMesh, options: &Options, watch: &Stopwatch<'_>) -> CheckReport {
     };
     let mesh = Mesh { vertices: &raw.vertices, triangles: &triangles, faces: &faces, groups: &groups, names: &raw.names };
     let quality = quality::examine(&mesh, options);
-    let warnings = watch.notes().iter().map(|note| Warning::of(note, BTreeMap::new())).collect();
+    let warnings = Warning::all(&watch.notes());
     let size = (raw.vertices.len(), count, triangles.len());
     let checked = Checked { vertices: size.0, faces: size.1, triangles: size.2, names: &raw.names, options };
     CheckReport { units, ..CheckReport::new(input, &checked, &quality, warnings) }

@@ -1,7 +1,7 @@
 //! What differs between two reports, or between two surfaces.
 
 use super::watch::{Named, Observer, Stopwatch, WRITING};
-use super::{Error, desk, read_ground, room};
+use super::{Error, desk, figures, read_ground, room};
 use crate::overlay::{self, AREA_ROUNDING, Between, Depth, OverlayError, SAME_HEIGHT};
 use crate::read::terrain::TerrainOptions;
 use crate::read::{Document, InputFormat, Source, read_document};
@@ -11,7 +11,6 @@ use crate::report::{Input, ReportFormat, Tool, Warning};
 use crate::surface::Watch;
 use crate::write::{Outputs, Target};
 use serde_json::Value;
-use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -129,7 +128,7 @@ pub fn diff(job: &DiffJob, observer: &dyn Observer) -> Result<Differed, Error> {
             return Err(DiffError(message).into());
         }
     };
-    report.warnings = watch.notes().iter().map(|note| Warning::of(note, BTreeMap::new())).collect();
+    report.warnings = Warning::all(&watch.notes());
     report.passed = report.bounds.iter().all(|row| row.passed);
     watch.stage_of(WRITING);
     let text = || render_diff(&report);
@@ -247,15 +246,8 @@ fn surfaces(job: &DiffJob, watch: &Stopwatch<'_>) -> Result<DiffReport, Error> {
     room::for_overlay(first.0.triangles.len() + second.0.triangles.len(), &second.1.label, &watch.memory())?;
     watch.stage("compare");
     let found = overlay::between(&second.0, &first.0, None).map_err(|cause| apart(&cause, &first.1, &second.1))?;
-    let input = |role: &str, source: &Source| Input {
-        role: role.to_owned(),
-        path: source.label.clone(),
-        bytes: source.bytes,
-        sha256: source.sha256.clone(),
-        format: source.format.name().to_owned(),
-        crs: source.crs.clone(),
-    };
-    let mut report = empty(vec![input("first", &first.1), input("second", &second.1)], unit.label().to_owned());
+    let inputs = vec![figures::input("first", &first.1), figures::input("second", &second.1)];
+    let mut report = empty(inputs, unit.label().to_owned());
     let surfaces = change(&found);
     let beside = surfaces.first_only + surfaces.second_only;
     let whole = surfaces.common_area + surfaces.first_only.max(surfaces.second_only);

@@ -1,6 +1,6 @@
 //! The summary of `slopegen batch`.
 
-use super::model::{Tool, Warning};
+use super::common::{Tool, Warning};
 use crate::kernel::sum::Sum;
 use schemars::JsonSchema;
 use serde::Serialize;

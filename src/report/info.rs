@@ -1,6 +1,6 @@
 //! What `slopegen info` has to tell.
 
-use super::model::{Tool, Warning};
+use super::common::{Tool, Warning};
 use super::page::printable;
 use schemars::JsonSchema;
 use serde::Serialize;

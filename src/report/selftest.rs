@@ -1,6 +1,6 @@
 //! What `slopegen selftest` has to tell.
 
-use super::model::Tool;
+use super::common::Tool;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write as _;
