@@ -1,11 +1,11 @@
 //! Taking down everything wrong with the arguments, so that all of it is told at once.
 
 use super::number::{self, Rule};
-use crate::model::{LengthUnit, Slope};
+use crate::model::{LengthUnit, Slope, message};
 use crate::read::ColumnOrder;
 use crate::report::ReportFormat;
-use crate::write::{Target, UnknownFormat};
-use std::ffi::{OsStr, OsString};
+use crate::write::{self, Target, UnknownFormat};
+use std::ffi::OsString;
 use std::fmt;
 use std::ops::RangeInclusive;
 
@@ -56,11 +56,7 @@ impl Checks {
 
     pub(super) fn order(&mut self, option: &str, text: Option<&String>) -> Option<ColumnOrder> {
         let text = text?;
-        let result = text.parse::<ColumnOrder>();
-        self.take(result.map_err(|error| match error.split_once("; ") {
-            Some((what, help)) => format!("{what}\n  --> {option} {text}\n   = help: {help}"),
-            None => format!("{error}\n  --> {option} {text}"),
-        }))
+        self.take(text.parse::<ColumnOrder>().map_err(|error| advised(&error, option, text)))
     }
 
     pub(super) fn slope(&mut self, option: &str, text: Option<&String>) -> Option<Slope> {
@@ -80,10 +76,7 @@ impl Checks {
 
     pub(super) fn unit(&mut self, text: Option<&String>) -> Option<LengthUnit> {
         let text = text?;
-        self.take(text.parse::<LengthUnit>().map_err(|error| match error.split_once("; ") {
-            Some((what, help)) => format!("{what}\n  --> --units {text}\n   = help: {help}"),
-            None => error,
-        }))
+        self.take(text.parse::<LengthUnit>().map_err(|error| advised(&error, "--units", text)))
     }
 
     /// A whole number of `things`.
@@ -143,8 +136,12 @@ impl Checks {
 
 /// A message with the option it is about below its first line.
 pub(super) fn placed(message: &str, option: &str, text: &str) -> String {
-    let (what, rest) = message.split_once('\n').unwrap_or((message, ""));
-    format!("{what}\n  --> {option} {text}\n{rest}").trim_end().to_owned()
+    message::placed(message, [format!("{option} {text}")])
+}
+
+/// The same for a message on one line that ends in a semicolon and what mends it.
+fn advised(message: &str, option: &str, text: &str) -> String {
+    placed(&message.replacen("; ", "\n   = help: ", 1), option, text)
 }
 
 /// Adds the text report that is seen where nothing else goes to standard output, unless quiet.
@@ -162,7 +159,6 @@ pub(super) fn targets(arguments: &[OsString]) -> Vec<Target> {
 /// Refuses names of files that do not end in one of `known`; streams have any name.
 pub(super) fn ending(target: &Target, what: &'static str, known: &[&str], phrase: &'static str) -> Result<(), UnknownFormat> {
     let Target::File(path) = target else { return Ok(()) };
-    let found = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
-    let fits = found.is_some_and(|found| known.contains(&found.as_str()));
+    let fits = write::ending(path).is_some_and(|found| known.contains(&found.as_str()));
     if fits || target.is_stream() { Ok(()) } else { Err(UnknownFormat { what, path: path.clone(), known: phrase }) }
 }

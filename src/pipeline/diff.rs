@@ -2,6 +2,7 @@
 
 use super::watch::{Named, Observer, Stopwatch, WRITING};
 use super::{Error, desk, figures, read_ground, room};
+use crate::model::message::placed;
 use crate::overlay::{self, AREA_ROUNDING, Between, Depth, OverlayError, SAME_HEIGHT};
 use crate::read::terrain::TerrainOptions;
 use crate::read::{Document, InputFormat, Source, read_document};
@@ -299,11 +300,9 @@ fn apart(cause: &OverlayError, first: &Source, second: &Source) -> DiffError {
         ("= existing:", "= first:"),
     ];
     let message = named.iter().fold(message, |message, (from, to)| message.replace(from, to));
-    let (what, rest) =
-        message.split_once('\n').map_or((message.as_str(), String::new()), |(what, rest)| (what, format!("\n{rest}")));
     let help = match cause {
         OverlayError::Double { .. } => "keep one surface: delete the faces that lie below or above others",
         _ => "give two surfaces of the same place, in the same coordinates",
     };
-    DiffError(format!("{what}\n  --> {}\n  --> {}{rest}\n   = help: {help}", first.label, second.label))
+    DiffError(format!("{}\n   = help: {help}", placed(&message, [&first.label, &second.label])))
 }

@@ -3,7 +3,7 @@
 use super::watch::{Observer, Stopwatch, WRITING};
 use super::{Desk, Error, Given, LineInput, check_steepness, rasters, read_line, room};
 use crate::model::{Defect, Defects, Line, Sheet, Slope};
-use crate::read::{RawPoints, ReadError, ReadOptions};
+use crate::read::{RawPoints, ReadOptions};
 use crate::sheet::{Grid, Heights};
 use crate::surface::Watch as _;
 use crate::validate::INPUT_LIMIT;
@@ -101,7 +101,7 @@ pub fn sample_at(desk: Desk<'_>, job: &SampleJob, observer: &dyn Observer) -> Re
     let heights = match &job.at {
         Where::Points { path, options } => {
             let options = ReadOptions { memory: watch.memory(), ..options.clone() };
-            let points = desk.points(path, &options).map_err(for_points)?;
+            let points = desk.points(path, &options).map_err(|error| error.with_option("--csv-order", "--at-order"))?;
             room::for_points(points.points.len(), points.source.bytes, &points.source.label, &watch.memory())?;
             points.notes.iter().for_each(|note| watch.note(note));
             check_points(&points)?;
@@ -132,16 +132,6 @@ pub fn sample_at(desk: Desk<'_>, job: &SampleJob, observer: &dyn Observer) -> Re
     };
     desk.commit(outputs)?;
     Ok(Sampled { heights })
-}
-
-/// The reader's advice in the words of the points' own option.
-fn for_points(error: ReadError) -> ReadError {
-    match error {
-        ReadError::Content { what, at, figures, help } => {
-            ReadError::Content { what, at, figures, help: help.replace("--csv-order", "--at-order") }
-        }
-        other => other,
-    }
 }
 
 /// Points must be where coordinates of lines may be.

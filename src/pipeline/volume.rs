@@ -5,10 +5,11 @@ use super::watch::{CHECKING, Named, Observer, Stopwatch, WRITING};
 use super::{Desk, Error, desk, figures, room, units};
 use crate::kernel::sum::Sum;
 use crate::mesh::inside::inside;
+use crate::model::message::placed;
 use crate::model::{Chain, Defect, Defects, LengthUnit, Note, Role, Terrain};
 use crate::overlay::{self, Between, OverlayError, Surface};
 use crate::read::terrain::TerrainOptions;
-use crate::read::{ColumnOrder, Pick, ReadError, ReadOptions, Source};
+use crate::read::{ColumnOrder, Pick, ReadOptions, Source};
 use crate::report::between::{BetweenDepths, BetweenReference, BetweenReport, BetweenTiming, BetweenVolumes, MeshFigures};
 use crate::report::{
     Balance, Detail, Input, METHOD, METHOD_TEXT, ReportFormat, ResultFigures, RunRecord, SCHEMA, SIGN_RULE, Tool, Warning,
@@ -97,22 +98,13 @@ pub struct ComparisonError {
 
 impl fmt::Display for ComparisonError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let message = self.cause.to_string();
-        let (what, rest) = message.split_once('\n').map_or((message.as_str(), None), |(what, rest)| (what, Some(rest)));
-        f.write_str(what)?;
-        for label in &self.labels {
-            write!(f, "\n  --> {label}")?;
-        }
-        if let Some(rest) = rest {
-            write!(f, "\n{rest}")?;
-        }
         let help = match &self.cause {
             OverlayError::Empty(_) => "give a surface with faces, or with points that are not all on one line",
             OverlayError::Apart { design, existing } => apart(design, existing),
             OverlayError::Outside { .. } => "check the coordinates of the rings: they must be those of the meshes",
             OverlayError::Double { .. } => "keep one surface: delete the faces that lie below or above others",
         };
-        write!(f, "\n   = help: {help}")
+        write!(f, "{}\n   = help: {help}", placed(&self.cause.to_string(), &self.labels))
     }
 }
 
@@ -165,9 +157,7 @@ pub fn volume_at(desk: Desk<'_>, job: &VolumeJob, observer: &dyn Observer) -> Re
     let declared = job.unit.or(design.as_ref().and_then(|(_, source)| source.unit));
     let existing = read(existing, of_existing, declared, Surface::Existing).map_err(|error| match error {
         // With a design beside it, the existing surface has an option of its own.
-        Error::Read(ReadError::Content { what, at, figures, help }) if design.is_some() => {
-            ReadError::Content { what, at, figures, help: help.replace("--surface", "--existing-surface") }.into()
-        }
+        Error::Read(error) if design.is_some() => error.with_option("--surface", "--existing-surface").into(),
         other => other,
     })?;
     let unit = declared.or(existing.1.unit).unwrap_or_default();

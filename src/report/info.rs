@@ -1,7 +1,7 @@
 //! What `slopegen info` has to tell.
 
 use super::common::{Tool, Warning};
-use super::page::printable;
+use crate::model::message::printable;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write as _;
