@@ -6,6 +6,7 @@ pub mod frame;
 pub mod hash;
 pub mod orientation;
 pub mod plan_box;
+pub mod range;
 pub mod segment;
 pub mod segment_tree;
 pub mod sum;

@@ -161,11 +161,9 @@ fn check_points(points: &RawPoints) -> Result<(), Defects> {
 pub fn lattice(line: &Line, wanted: &Lattice, label: &str) -> Result<Grid, Defects> {
     let cell = wanted.cell;
     let area = wanted.area.unwrap_or_else(|| {
-        let vertices = || line.chains.iter().flat_map(|chain| &chain.vertices).map(|v| v.truncate());
-        let min = vertices().fold(DVec2::INFINITY, DVec2::min);
-        let max = vertices().fold(DVec2::NEG_INFINITY, DVec2::max);
-        let margin = (MARGIN * (max - min).max_element()).max(LEAST_MARGIN_CELLS * cell);
-        Area { min: ((min - margin) / cell).floor() * cell, max: ((max + margin) / cell).ceil() * cell }
+        let bounds = line.plan_box();
+        let margin = (MARGIN * bounds.size().max_element()).max(LEAST_MARGIN_CELLS * cell);
+        Area { min: ((bounds.lo - margin) / cell).floor() * cell, max: ((bounds.hi + margin) / cell).ceil() * cell }
     });
     let size = area.max - area.min;
     let count = (size / cell + ON_EDGE).floor() + 1.0;
@@ -174,15 +172,7 @@ pub fn lattice(line: &Line, wanted: &Lattice, label: &str) -> Result<Grid, Defec
     if nodes <= MOST_NODES {
         return Ok(Grid { xll: area.min.x, yll: area.min.y, cell, ncols: count.x as usize, nrows: count.y as usize });
     }
-    let mut defects = Defects::default();
-    defects.push("too-many-nodes", || Defect {
-        code: "too-many-nodes",
-        what: "the raster would have too many nodes".to_owned(),
-        at: label.to_owned(),
-        figures: Some(format!("{} by {} at a cell of {cell}; at most {MOST_NODES:e} in all", count.x, count.y)),
-        help: "give a larger `--cell`, or a smaller `--box`".to_owned(),
-    });
-    Err(defects)
+    Err(rasters::too_many_nodes(count, cell, label, "give a larger `--cell`, or a smaller `--box`"))
 }
 
 #[cfg(test)]

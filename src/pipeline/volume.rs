@@ -3,8 +3,9 @@
 use super::ground::read_ground_at;
 use super::watch::{CHECKING, Named, Observer, Stopwatch, WRITING};
 use super::{Desk, Error, desk, figures, room, units};
-use crate::kernel::sum::Sum;
+use crate::kernel::range::range;
 use crate::mesh::inside::inside;
+use crate::mesh::volume::MeshAreas;
 use crate::model::message::placed;
 use crate::model::{Chain, Defect, Defects, LengthUnit, Note, Role, Terrain};
 use crate::overlay::{self, Between, OverlayError, Surface};
@@ -250,33 +251,22 @@ const PART: usize = 1 << 15;
 /// Size, heights and areas of a mesh as it takes part.
 fn mesh_figures(role: &'static str, mesh: &Terrain) -> MeshFigures {
     let of_some = |some: &[[u32; 3]]| {
-        let (mut plan, mut surface) = (Sum::default(), Sum::default());
-        for [a, b, c] in some.iter().map(|t| t.map(|v| mesh.vertices[v as usize])) {
-            let normal = (b - a).cross(c - a);
-            plan.add(0.5 * normal.z.abs());
-            surface.add(0.5 * normal.length());
-        }
-        let heights = some.as_flattened().iter().map(|&v| mesh.vertices[v as usize].z);
-        let (z_min, z_max) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), z| (lo.min(z), hi.max(z)));
-        (plan, surface, z_min, z_max)
+        let corners = || some.iter().map(|t| t.map(|v| mesh.vertices[v as usize]));
+        (MeshAreas::of(corners()), range(corners().flatten().map(|p| p.z)))
     };
     // In parts of fixed size, so that the sums are the same on any number of threads.
-    let parts: Vec<(Sum, Sum, f64, f64)> = mesh.triangles.par_chunks(PART).map(of_some).collect();
-    let (mut plan, mut surface) = (Sum::default(), Sum::default());
-    let (mut z_min, mut z_max) = (f64::INFINITY, f64::NEG_INFINITY);
-    for part in parts {
-        plan.join(part.0);
-        surface.join(part.1);
-        (z_min, z_max) = (z_min.min(part.2), z_max.max(part.3));
-    }
+    let parts: Vec<(MeshAreas, (f64, f64))> = mesh.triangles.par_chunks(PART).map(of_some).collect();
+    let (z_min, z_max) = range(parts.iter().flat_map(|(_, (low, high))| [*low, *high]));
+    let mut areas = MeshAreas::default();
+    parts.into_iter().for_each(|(part, _)| areas.join(part));
     MeshFigures {
         role,
         vertices: mesh.vertices.len(),
         triangles: mesh.triangles.len(),
         z_min,
         z_max,
-        plan_area: plan.value(),
-        surface_area: surface.value(),
+        plan_area: areas.plan(),
+        surface_area: areas.surface(),
     }
 }
 

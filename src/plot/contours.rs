@@ -1,8 +1,8 @@
 //! Contours of the existing ground.
 
 use super::lines::Stroke;
-use super::scale::range;
 use crate::kernel::plan_box::PlanBox;
+use crate::kernel::range::range;
 use glam::{DVec2, DVec3};
 
 /// Lines of equal height on the triangles that meet a plan box, for ascending levels; of each level its lines. A height at a level

@@ -4,6 +4,7 @@ use super::canonical;
 use super::noding::{Segments, weld};
 use super::simplify::{self, Chord};
 use crate::kernel::frame::Frame;
+use crate::kernel::plan_box::PlanBox;
 use crate::model::{Design, Extent, Joggle, Line, Role, Sheet, Side};
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
@@ -110,7 +111,7 @@ impl Network {
     /// Expects a validated line, every segment flatter than the slope.
     pub fn new(line: &Line, design: &Design, bound: f64) -> Self {
         let frame = design.frame.unwrap_or_else(|| {
-            let (min, max) = plan_box(line);
+            let PlanBox { lo: min, hi: max } = line.plan_box();
             Frame::around(min, max)
         });
         let sign = if design.sheet == Sheet::Rising { -1.0 } else { 1.0 };
@@ -271,14 +272,6 @@ impl Network {
             edge.b = new_id[edge.b as usize];
         }
     }
-}
-
-/// Plan box of all vertices, world coordinates.
-fn plan_box(line: &Line) -> (DVec2, DVec2) {
-    line.chains
-        .iter()
-        .flat_map(|c| &c.vertices)
-        .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(lo, hi), v| (lo.min(v.truncate()), hi.max(v.truncate())))
 }
 
 /// The pieces of line between nodes, each once, with the sides on which a slope is wanted.

@@ -11,6 +11,7 @@ use self::parts::{push_escaped, push_northing_first, start, volumes};
 use super::number::{push_f64, push_u64};
 use super::obj::{finite_vertex, flush_if_full};
 use super::{EncodeError, Head};
+use crate::kernel::range::range;
 use crate::kernel::sum::Sum;
 use crate::mesh::{check::HalfEdges, polygon, volume::MeshAreas};
 use crate::model::Tin;
@@ -81,8 +82,7 @@ fn boundaries(out: &mut (impl Write + ?Sized), bytes: &mut Vec<u8>, tin: &Tin) -
 fn definition(out: &mut (impl Write + ?Sized), bytes: &mut Vec<u8>, tin: &Tin) -> Result<(), EncodeError> {
     let triangles = || (0..tin.triangles.len()).map(|t| tin.corners(t));
     let areas = MeshAreas::of(triangles());
-    let heights = triangles().flatten().map(|p| p.z);
-    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)));
+    let (low, high) = range(triangles().flatten().map(|p| p.z));
     bytes.extend_from_slice(b"<Definition surfType=\"TIN");
     let figures = [("area2DSurf", areas.plan()), ("area3DSurf", areas.surface()), ("elevMin", low), ("elevMax", high)];
     // Infinite for a mesh without triangles, and for heights whose squares are: then left out.
