@@ -13,3 +13,4 @@ pub mod sum;
 #[cfg(test)]
 pub(crate) mod testing;
 mod tree;
+pub mod union;
