@@ -133,6 +133,11 @@ impl Network {
         network
     }
 
+    /// Length of an edge in plan.
+    pub fn length(&self, edge: &Edge) -> f64 {
+        self.nodes[edge.a as usize].truncate().distance(self.nodes[edge.b as usize].truncate())
+    }
+
     /// Moves the nodes in height, so little that every edge stays flatter than `flattest`. Nodes where the slope is to end stay.
     fn joggle(&mut self, joggle: Joggle, flattest: f64, extent: Extent) {
         let mut most = vec![joggle.most; self.nodes.len()];

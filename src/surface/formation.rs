@@ -81,7 +81,7 @@ impl<'a> Roads<'a> {
             if chain.axis.is_none() || edge.given[0].chain != edge.given[1].chain {
                 continue;
             }
-            let length = network.nodes[edge.a as usize].truncate().distance(network.nodes[edge.b as usize].truncate());
+            let length = network.length(edge);
             // Points whose station is known, by distance from the start.
             let mut marks: Vec<(f64, f64)> = Vec::new();
             let ends = [(0.0, Some(edge.given[0])), (length, Some(edge.given[1]))];

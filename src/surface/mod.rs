@@ -9,6 +9,7 @@ mod flats;
 mod formation;
 mod room;
 mod solve;
+mod stations;
 mod touching;
 
 pub use buried::Buried;
@@ -398,7 +399,7 @@ impl Task<'_> {
 
 /// The facets that have triangles, and the one of each triangle.
 fn feet_of(line: &Line, sheet: &Sheet, slopes: &Slopes) -> (Vec<Foot>, Vec<u32>) {
-    let stations = feet::Stations::new(line);
+    let stations = stations::Stations::on_axes(line);
     let mut feet = Vec::new();
     let mut last = None;
     let mut foot_of = Vec::with_capacity(slopes.facets.len());
