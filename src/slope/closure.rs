@@ -227,13 +227,11 @@ impl<'a> State<'a> {
         let at = |i: usize| -> (VertexId, FacetId) {
             let node = ends[i];
             match facet.lateral[i] {
-                _ if covered[node as usize] => (node, hidden),
-                Lateral::Hidden => (node, hidden),
-                Lateral::Crease(other) => (node, other),
-                Lateral::Joint(j) => {
-                    let tip = &self.tips[j as usize];
-                    if tip.r > 0.0 { (self.tip_vertex(j), tip.partner) } else { (node, hidden) }
+                Lateral::Crease(other) if !covered[node as usize] => (node, other),
+                Lateral::Joint(j) if !covered[node as usize] && self.tips[j as usize].r > 0.0 => {
+                    (self.tip_vertex(j), self.tips[j as usize].partner)
                 }
+                _ => (node, hidden),
             }
         };
         let (first, last) = (at(0), at(1));

@@ -7,7 +7,7 @@ use crate::kernel::frame::Frame;
 use crate::kernel::plan_box::PlanBox;
 use crate::model::{Design, Extent, Joggle, Line, Role, Sheet, Side};
 use glam::{DVec2, DVec3};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Vertices closer than this (length units, 3D) are one vertex.
 pub const WELD_DISTANCE: f64 = 1e-6;
@@ -169,7 +169,7 @@ impl Network {
         self.simplified_max += shifts.iter().fold(0.0, |most, shift| f64::max(most, shift.abs()));
     }
 
-    /// Height in the world of a height of the falling sheet.
+    /// The place in the world of a point of the falling sheet.
     pub fn world(&self, p: DVec3) -> DVec3 {
         self.frame.to_world(DVec3::new(p.x, p.y, self.sign * p.z))
     }
@@ -213,7 +213,7 @@ impl Network {
     fn with_edges(mut self, pieces: &[Piece], slopes: [f64; 2], bound: f64) -> Self {
         let (flatter, steeper) = (slopes[0].min(slopes[1]), slopes[0].max(slopes[1]));
         let runs = Runs::new(self.nodes.len(), pieces);
-        let mut used = FxHashMap::default();
+        let mut used = FxHashSet::default();
         for run in runs.all(&self.nodes) {
             let points: Vec<DVec3> = run.nodes.iter().map(|&n| self.nodes[n as usize]).collect();
             let steepest = points
@@ -228,10 +228,10 @@ impl Network {
         self
     }
 
-    fn add_chord(&mut self, run: &Run, points: &[DVec3], chord: &Chord, used: &mut FxHashMap<[u32; 2], ()>) {
+    fn add_chord(&mut self, run: &Run, points: &[DVec3], chord: &Chord, used: &mut FxHashSet<[u32; 2]>) {
         let (a, b) = (run.nodes[chord.from], run.nodes[chord.to]);
         let pair = [a.min(b), a.max(b)];
-        if chord.to - chord.from > 1 && used.contains_key(&pair) {
+        if chord.to - chord.from > 1 && used.contains(&pair) {
             // Two runs between the same nodes, closer together than the bound: keep them apart by a vertex of this one.
             let middle = usize::midpoint(chord.from, chord.to);
             for (from, to) in [(chord.from, middle), (middle, chord.to)] {
@@ -240,7 +240,7 @@ impl Network {
             }
             return;
         }
-        used.insert(pair, ());
+        used.insert(pair);
         let (pa, pb) = (points[chord.from], points[chord.to]);
         let length = pa.truncate().distance(pb.truncate());
         let mut inner = Vec::with_capacity(chord.dropped.len());
