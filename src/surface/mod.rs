@@ -14,7 +14,7 @@ mod touching;
 
 pub use buried::Buried;
 pub use certificate::Certificate;
-pub(crate) use certificate::{CONE_BOUND, MEASURABLE_HEIGHT, STRIP_BOUND};
+pub(crate) use certificate::{CONE_BOUND, Deviations, MEASURABLE_HEIGHT, STRIP_BOUND, flaw};
 pub use curves::Mark;
 pub use feet::Foot;
 pub(crate) use touching::{in_spite_of_touching, note as joggle_note};
