@@ -32,7 +32,8 @@ pub(super) struct DiffArgs {
     #[arg(long, value_name = "UNIT", help_heading = help::INPUT)]
     pub(super) units: Option<String>,
 
-    /// Exit with 5 if cut or fill differ by more: a volume, or a share such as 0.5% of the greater; of surfaces the volume between
+    /// Exit with 5 if cut or fill differ by more: a volume, or a share such as 0.5% of the greater; of surfaces the volume
+    /// between
     #[arg(long, value_name = "V", allow_negative_numbers = true, help_heading = help::CHECKS)]
     pub(super) max_volume: Option<String>,
     /// Exit with 5 if areas of cut or fill differ by more, or more area is covered by only one surface: an area, or a share

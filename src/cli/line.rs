@@ -21,8 +21,8 @@ pub(super) const CHORDS: f64 = 3.0;
 
 #[derive(Debug, Args)]
 pub(super) struct InputArgs {
-    /// The line: .geojson, .json, .csv, .txt, .tsv, .xyz, .xml (LandXML) or .dxf; - is standard input. For `build` also a job file,
-    /// .toml
+    /// The line: .geojson, .json, .csv, .txt, .tsv, .xyz, .xml (LandXML) or .dxf; - is standard input. For `build` also a job
+    /// file, .toml
     #[arg(value_name = "INPUT")]
     pub(super) input: PathBuf,
     /// Format of the input [default: by its extension]
@@ -39,7 +39,8 @@ pub(super) struct InputArgs {
     /// Use only the lines on this layer of a drawing; may be repeated [default: all that are on]
     #[arg(long, value_name = "NAME", help_heading = help::INPUT)]
     pub(super) layer: Vec<String>,
-    /// Unit of the figures, and of files that declare none: m, ft (0.3048 m) or us-ft (1200/3937 m) [default: that of the line, else m]
+    /// Unit of the figures, and of files that declare none: m, ft (0.3048 m) or us-ft (1200/3937 m) [default: that of the line,
+    /// else m]
     #[arg(long, value_name = "UNIT", help_heading = help::INPUT)]
     pub(super) units: Option<String>,
     /// Make rings of lines that do not end where they begin

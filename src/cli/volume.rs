@@ -36,7 +36,8 @@ pub(super) struct VolumeArgs {
     /// Which surface of a LandXML file with several of them is the one before the works
     #[arg(long, value_name = "NAME", conflicts_with = "to_elevation", help_heading = help::INPUT)]
     pub(super) existing_surface: Option<String>,
-    /// Unit of the figures, and of files that declare none: m, ft (0.3048 m) or us-ft (1200/3937 m) [default: that of the first file, else m]
+    /// Unit of the figures, and of files that declare none: m, ft (0.3048 m) or us-ft (1200/3937 m) [default: that of the first
+    /// file, else m]
     #[arg(long, value_name = "UNIT", help_heading = help::INPUT)]
     pub(super) units: Option<String>,
     /// Points of these classes of LAS and LAZ files are the surface, such as 2 or 2,8 [default: 2]

@@ -43,8 +43,8 @@ impl<'a> Walker<'a> {
 
     /// Calls `visit` with every triangle that shares plan area with the patch and with the part they share, each once.
     ///
-    /// From one triangle inside, neighbours are entered across the edges that run through the patch. All that cannot be reached so
-    /// has a rim inside the patch, so the triangles at the rim are tried too.
+    /// From one triangle inside, neighbours are entered across the edges that run through the patch. All that cannot be reached
+    /// so has a rim inside the patch, so the triangles at the rim are tried too.
     pub(super) fn over(&mut self, patch: &Patch, mut visit: impl FnMut(u32, &Ring)) {
         self.round = self.round.wrapping_add(1);
         if self.round == 0 {

@@ -355,8 +355,9 @@ fn wanted(job: &BuildJob) -> Vec<(Target, Content)> {
     all
 }
 
-/// The order in which outputs are written, up to the first report in JSON and from there. Files first, because they can still be taken
-/// back; standard output last; of each kind reports last, because they tell how long the rest took, those in JSON behind the others.
+/// The order in which outputs are written, up to the first report in JSON and from there. Files first, because they can still be
+/// taken back; standard output last; of each kind reports last, because they tell how long the rest took, those in JSON behind
+/// the others.
 fn in_order(targets: &[Target], contents: &[Content]) -> (Vec<usize>, Vec<usize>) {
     let is_json = |i: usize| matches!(contents[i], Content::Report(ReportFormat::Json));
     let mut order: Vec<usize> = (0..targets.len()).collect();

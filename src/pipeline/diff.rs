@@ -108,8 +108,8 @@ impl std::error::Error for Beyond {}
 /// Compares two files. That they differ is no error: see [`Beyond::of`].
 ///
 /// # Errors
-/// [`Error`] if a file cannot be read, if the two are not of one kind or share no area, if a bound is on figures they do not have,
-/// or if a report cannot be written.
+/// [`Error`] if a file cannot be read, if the two are not of one kind or share no area, if a bound is on figures they do not
+/// have, or if a report cannot be written.
 pub fn diff(job: &DiffJob, observer: &dyn Observer) -> Result<Differed, Error> {
     let watch = Stopwatch::new(observer);
     let targets: Vec<Target> = job.reports.iter().map(|(target, _)| target.clone()).collect();

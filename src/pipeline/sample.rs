@@ -20,7 +20,8 @@ pub const MARGIN: f64 = 0.1;
 /// The least margin, in cells.
 pub const LEAST_MARGIN_CELLS: f64 = 5.0;
 
-/// A last column or row that misses the edge of the box by this share of a cell counts as on it: what is left of decimal fractions.
+/// A last column or row that misses the edge of the box by this share of a cell counts as on it: what is left of decimal
+/// fractions.
 const ON_EDGE: f64 = 1e-6;
 
 /// Heights to be found, and where to put them.

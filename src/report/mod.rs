@@ -84,7 +84,8 @@ impl ReportFormat {
         self == Self::Html
     }
 
-    /// Writes a report in this format; the page draws `scene`, with cross-sections at `sections` or, without any, where it sees fit.
+    /// Writes a report in this format; the page draws `scene`, with cross-sections at `sections` or, without any, where it sees
+    /// fit.
     ///
     /// # Errors
     /// As [`write_json`], [`write_text`] and [`html::write_html`].

@@ -18,8 +18,8 @@ use rustc_hash::FxHashMap;
 /// Vertices of one facet closer than this (length units) are one, unless that spoils a surface.
 pub const SNAP: f64 = 1e-8;
 
-/// The same where it does, as in the tips of very narrow strips: ten times the rounding of coordinates ten kilometres from the local
-/// origin.
+/// The same where it does, as in the tips of very narrow strips: ten times the rounding of coordinates ten kilometres from the
+/// local origin.
 pub const FINER_SNAP: f64 = 2e-11;
 
 /// Knots closer than this (relative, in `τ`) lie on one ruling.
@@ -114,8 +114,8 @@ pub enum Scope {
     All,
 }
 
-/// Closes the facets of a sheet. `hints` are extra rulings to look at: facet and `τ`. Vertices of one facet closer than `snap` are
-/// one.
+/// Closes the facets of a sheet. `hints` are extra rulings to look at: facet and `τ`. Vertices of one facet closer than `snap`
+/// are one.
 pub fn close(sheet: &Sheet, scope: Scope, hints: &[(FacetId, f64)], snap: f64) -> Closure {
     let nodes = sheet.network.nodes.len();
     let joints = &sheet.fans.joints;

@@ -65,9 +65,9 @@ pub struct Edge {
     pub wanted: [bool; 2],
     /// Whether the inside of a ring lies on the left (0) and on the right (1).
     pub interior: [bool; 2],
-    /// Given vertices at its ends; the end of a ring's last segment counts on past the last vertex. An edge of a simplified ring may
-    /// run over the first vertex: it then ends at a lesser one than it begins, or a greater one where it runs against its chain.
-    /// Where several chains share an edge, one of them.
+    /// Given vertices at its ends; the end of a ring's last segment counts on past the last vertex. An edge of a simplified ring
+    /// may run over the first vertex: it then ends at a lesser one than it begins, or a greater one where it runs against its
+    /// chain. Where several chains share an edge, one of them.
     pub given: [Given; 2],
     /// Whether it runs against its chain.
     pub against: bool,

@@ -15,8 +15,8 @@ use rayon::prelude::*;
 /// Triangles lower than this (length units) are too small for an angle.
 pub(crate) const MEASURABLE_HEIGHT: f64 = 1e-4;
 
-/// Triangles of slopes narrower than this in plan (length units) are too narrow for one: points as close as that are taken for one
-/// where facets meet.
+/// Triangles of slopes narrower than this in plan (length units) are too narrow for one: points as close as that are taken for
+/// one where facets meet.
 const MEASURABLE_WIDTH: f64 = SNAP;
 
 /// Bounds of the slope (degrees): in planar strips, on cones.

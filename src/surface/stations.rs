@@ -43,8 +43,8 @@ impl Stations {
         ring.filter(|length| station >= *length).map_or(station, |length| station - length)
     }
 
-    /// Stations of two places on an edge, in its direction. Where it runs over the first vertex of a ring between them, the later one
-    /// counts on past the length of the ring.
+    /// Stations of two places on an edge, in its direction. Where it runs over the first vertex of a ring between them, the later
+    /// one counts on past the length of the ring.
     pub(super) fn counting_on(&self, edge: &Edge, [first, second]: [f64; 2]) -> [f64; 2] {
         let length = self.rings[edge.given[0].chain as usize].unwrap_or(0.0);
         match edge.against {

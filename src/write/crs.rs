@@ -18,8 +18,8 @@ pub(super) fn is_wkt(crs: &str) -> bool {
     upper.contains('[') && KEYWORDS.iter().any(|keyword| upper.starts_with(keyword))
 }
 
-/// The code of the EPSG register that a name holds, for formats that tell plan and heights apart: as [`epsg`], and of several codes,
-/// as in `EPSG:25832+7837`, the first, which is that of the plan.
+/// The code of the EPSG register that a name holds, for formats that tell plan and heights apart: as [`epsg`], and of several
+/// codes, as in `EPSG:25832+7837`, the first, which is that of the plan.
 #[cfg(feature = "geotiff")]
 pub(super) fn plan_epsg(crs: &str) -> Option<u32> {
     const SHORTEST_CODE: usize = 4;

@@ -1,5 +1,5 @@
-//! GeoTIFF rasters: one band of double precision, packed with deflate, in strips (OGC GeoTIFF 1.1; TIFF 6.0; predictor 3 of Adobe's
-//! TIFF Technical Note 3).
+//! GeoTIFF rasters: one band of double precision, packed with deflate, in strips (OGC GeoTIFF 1.1; TIFF 6.0; predictor 3 of
+//! Adobe's TIFF Technical Note 3).
 
 use super::crs::plan_epsg;
 use super::raster::{Anchor, GridLayout, Reference};
@@ -97,9 +97,9 @@ pub fn write_geotiff(
     Ok(())
 }
 
-/// Packs a strip. Of each row first come the highest bytes of all its values, then the second ones and so on, and of all these the
-/// difference from the byte before: heights of neighbours agree in their first bytes, which is all that packs in doubles. What is
-/// left packs no better with more effort.
+/// Packs a strip. Of each row first come the highest bytes of all its values, then the second ones and so on, and of all these
+/// the difference from the byte before: heights of neighbours agree in their first bytes, which is all that packs in doubles.
+/// What is left packs no better with more effort.
 fn pack(values: &[f64], columns: usize) -> std::io::Result<Vec<u8>> {
     const SIZE: usize = size_of::<f64>();
     let mut encoder = ZlibEncoder::new(Vec::with_capacity(SIZE * values.len()), Compression::fast());
