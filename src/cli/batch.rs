@@ -1,12 +1,12 @@
 //! `slopegen batch`: many job files, one summary.
 
 use super::build;
-use super::checks::{Checks, UsageErrors};
 use super::console::{self, Screen};
 use super::exit_code::Code;
 use super::help;
 use super::job_file::{self, JobFile};
 use super::running::{self, Running};
+use super::usage::{Checks, UsageErrors};
 use crate::model::{Memory, Note};
 use crate::pipeline::{self, Batch, BuildJob, Built, Error, Observer};
 use crate::read::ReadError;

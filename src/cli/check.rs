@@ -1,10 +1,10 @@
 //! `slopegen check`: arguments and job.
 
-use super::checks::{Checks, LEAST_LENGTH, UsageErrors};
 use super::exit_code::Code;
 use super::help;
 use super::number::{self, Rule};
 use super::running::{Run, Running};
+use super::usage::{Checks, LEAST_LENGTH, UsageErrors};
 use crate::pipeline::{self, CheckJob, NotPassed, SlopeWish};
 use crate::read::{InputFormat, Pick};
 use crate::report::ReportFormat;

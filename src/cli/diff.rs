@@ -1,10 +1,10 @@
 //! `slopegen diff`: arguments and job.
 
-use super::checks::{Checks, UsageErrors};
 use super::exit_code::Code;
 use super::help;
 use super::number::{self, Rule};
 use super::running::{Run, Running};
+use super::usage::{Checks, UsageErrors};
 use crate::pipeline::{self, Beyond, Bounds, DiffJob, Most};
 use crate::read::Pick;
 use crate::read::terrain::TerrainOptions;

@@ -1,12 +1,12 @@
 //! `slopegen info`: arguments, and job files, which only the command line knows.
 
 use super::build;
-use super::checks::{Checks, UsageErrors};
 use super::console;
 use super::exit_code::Code;
 use super::help;
 use super::job_file;
 use super::running::{Run, Running};
+use super::usage::{Checks, UsageErrors};
 use crate::pipeline;
 use crate::read::{Pick, ReadOptions};
 use crate::report::info::{InfoReport, Setting, render_info};

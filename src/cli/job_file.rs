@@ -8,8 +8,8 @@ mod nearest;
 
 use super::args::{Arguments, Command};
 use super::build::{self, BuildArgs};
-use super::checks::UsageErrors;
 use super::record;
+use super::usage::UsageErrors;
 use crate::pipeline::Error;
 use crate::read::ReadError;
 use clap::error::{ContextKind, ErrorKind};

@@ -1,8 +1,8 @@
 //! The line and its slopes as `build` and `sample` take them: arguments, and what is checked of them.
 
-use super::checks::{Checks, placed};
 use super::help;
 use super::number::Rule;
+use super::usage::{Checks, placed};
 use crate::formation::{Crossfall, Formation};
 use crate::model::{Sheet, Slope};
 use crate::pipeline::LineInput;

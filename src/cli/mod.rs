@@ -4,7 +4,6 @@ mod args;
 mod batch;
 mod build;
 mod check;
-mod checks;
 mod console;
 mod diff;
 mod exit_code;
@@ -20,6 +19,7 @@ mod record;
 mod running;
 mod sample;
 mod selftest;
+mod usage;
 mod verify;
 mod volume;
 

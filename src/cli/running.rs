@@ -1,8 +1,8 @@
 //! What all commands have: how much is told, threads, memory, and a terminal that shows the report.
 
-use super::checks::Checks;
 use super::console::{self, Console, Screen};
 use super::exit_code::Code;
+use super::usage::Checks;
 use super::{help, interrupt, memory};
 use crate::model::Memory;
 use crate::pipeline::Error;

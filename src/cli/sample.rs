@@ -1,11 +1,11 @@
 //! `slopegen sample`: arguments and job.
 
-use super::checks::{Checks, LEAST_LENGTH, UsageErrors, ending};
 use super::exit_code::Code;
 use super::help;
 use super::line::{InputArgs, SlopeArgs};
 use super::number::{self, Rule};
 use super::running::{Run, Running};
+use super::usage::{Checks, LEAST_LENGTH, UsageErrors, ending};
 use crate::pipeline::{self, Area, Lattice, SampleJob, Where};
 use crate::read::ReadOptions;
 use crate::write::{RasterFormat, Target};

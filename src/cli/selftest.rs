@@ -1,10 +1,10 @@
 //! `slopegen selftest`: the cases with known figures, run on this machine.
 
-use super::checks::Checks;
 use super::console;
 use super::exit_code::Code;
 use super::help;
 use super::running::{Run, Running};
+use super::usage::Checks;
 use crate::pipeline;
 use crate::report::{SelftestReport, render_selftest};
 use crate::selftest;

@@ -1,10 +1,10 @@
 //! `slopegen verify`: arguments, the run a report states, and where its files are.
 
 use super::args::Command;
-use super::checks::UsageErrors;
 use super::console::Console;
 use super::exit_code::Code;
 use super::running::{self, Running};
+use super::usage::UsageErrors;
 use super::{build, help, job_file, record, volume};
 use crate::pipeline::{self, Error, NotVerified, Rerun, VerifyJob};
 use crate::read::{Document, ReadError, read_document};

@@ -1,10 +1,10 @@
 //! `slopegen volume`: arguments and job.
 
-use super::checks::{Checks, UsageErrors};
 use super::exit_code::Code;
 use super::help;
 use super::number::Rule;
 use super::running::{Run, Running};
+use super::usage::{Checks, UsageErrors};
 use crate::pipeline::{self, Against, VolumeJob};
 use crate::read::{InputFormat, Pick};
 use crate::report::{Options, RunRecord, write_between};

@@ -1,8 +1,8 @@
 //! Arguments of `slopegen build` as typed → a job in which everything is checked that can be without the input.
 
-use super::super::checks::{Checks, LEAST_LENGTH, UsageErrors, targets};
 use super::super::line::CHORDS;
 use super::super::number::{self, Rule};
+use super::super::usage::{Checks, LEAST_LENGTH, UsageErrors, targets};
 use super::{BuildArgs, SideArg};
 use crate::model::{Bulking, Extent, Side};
 use crate::pipeline::{BuildJob, GroundInput, LocalOrigin, Rasters, Wishes};
