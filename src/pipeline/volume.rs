@@ -52,10 +52,7 @@ pub struct VolumeJob {
 impl VolumeJob {
     /// The files it reads.
     pub(super) fn inputs(&self) -> Vec<PathBuf> {
-        let (design, existing) = match &self.against {
-            Against::Existing { design, existing } => (Some(design), existing),
-            Against::Elevation { existing, .. } => (None, existing),
-        };
+        let (design, existing) = self.against.paths();
         design.into_iter().chain([existing]).chain(&self.within).cloned().collect()
     }
 }
@@ -77,6 +74,16 @@ pub enum Against {
         /// The level.
         elevation: f64,
     },
+}
+
+impl Against {
+    /// The design, if there is one, and the existing surface.
+    fn paths(&self) -> (Option<&PathBuf>, &PathBuf) {
+        match self {
+            Self::Existing { design, existing } => (Some(design), existing),
+            Self::Elevation { existing, .. } => (None, existing),
+        }
+    }
 }
 
 /// What came out.
@@ -139,32 +146,10 @@ pub fn volume(job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Erro
 pub fn volume_at(desk: Desk<'_>, job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Error> {
     let watch = Stopwatch::new(observer);
     let targets: Vec<Target> = job.reports.iter().map(|(target, _)| target.clone()).collect();
-    let (design, existing) = match &job.against {
-        Against::Existing { design, existing } => (Some(design), existing),
-        Against::Elevation { existing, .. } => (None, existing),
-    };
-    let inputs = job.inputs();
     let record = desk.records(&job.reports);
-    let mut outputs = desk.open(&targets, &inputs, record)?;
+    let mut outputs = desk.open(&targets, &job.inputs(), record)?;
 
-    let [of_design, of_existing] = &job.picks;
-    let read = |path: &Path, pick: &Pick, unit, surface: Surface| {
-        let options =
-            TerrainOptions { csv_order: job.csv_order.clone(), pick: pick.clone(), unit: job.unit, ..TerrainOptions::default() };
-        read_ground_at(desk, path, &options, unit, &Named { watch: &watch, name: surface.name() })
-    };
-    let design = design.map(|path| read(path, of_design, job.unit, Surface::Design)).transpose()?;
-    watch.holds(design.as_ref().map_or(0, |(ground, _)| room::of_ground(ground)));
-    let declared = job.unit.or(design.as_ref().and_then(|(_, source)| source.unit));
-    let existing = read(existing, of_existing, declared, Surface::Existing).map_err(|error| match error {
-        // With a design beside it, the existing surface has an option of its own.
-        Error::Read(error) if design.is_some() => error.with_option("--surface", "--existing-surface").into(),
-        other => other,
-    })?;
-    let unit = declared.or(existing.1.unit).unwrap_or_default();
-    let triangles = existing.0.triangles.len() + design.as_ref().map_or(0, |(ground, _)| ground.triangles.len());
-    watch.holds(room::of_ground(&existing.0) + design.as_ref().map_or(0, |(ground, _)| room::of_ground(ground)));
-    room::for_overlay(triangles, &existing.1.label, &watch.memory())?;
+    let Surfaces { design, existing, unit } = read(desk, job, &watch)?;
     let area = job.within.as_ref().map(|path| rings(desk, path, unit, &watch)).transpose()?;
 
     watch.stage_of(VOLUMES);
@@ -224,6 +209,36 @@ pub fn volume_at(desk: Desk<'_>, job: &VolumeJob, observer: &dyn Observer) -> Re
     }
     desk.commit(outputs)?;
     Ok(Compared { report, written: targets.into_iter().filter(|target| !target.is_stream()).collect() })
+}
+
+/// The surfaces of a job as read, in one unit.
+struct Surfaces {
+    design: Option<(Terrain, Source)>,
+    existing: (Terrain, Source),
+    unit: LengthUnit,
+}
+
+fn read(desk: Desk<'_>, job: &VolumeJob, watch: &Stopwatch<'_>) -> Result<Surfaces, Error> {
+    let (design, existing) = job.against.paths();
+    let [of_design, of_existing] = &job.picks;
+    let read = |path: &Path, pick: &Pick, unit, surface: Surface| {
+        let options =
+            TerrainOptions { csv_order: job.csv_order.clone(), pick: pick.clone(), unit: job.unit, ..TerrainOptions::default() };
+        read_ground_at(desk, path, &options, unit, &Named { watch, name: surface.name() })
+    };
+    let design = design.map(|path| read(path, of_design, job.unit, Surface::Design)).transpose()?;
+    watch.holds(design.as_ref().map_or(0, |(ground, _)| room::of_ground(ground)));
+    let declared = job.unit.or(design.as_ref().and_then(|(_, source)| source.unit));
+    let existing = read(existing, of_existing, declared, Surface::Existing).map_err(|error| match error {
+        // With a design beside it, the existing surface has an option of its own.
+        Error::Read(error) if design.is_some() => error.with_option("--surface", "--existing-surface").into(),
+        other => other,
+    })?;
+    let unit = declared.or(existing.1.unit).unwrap_or_default();
+    let triangles = existing.0.triangles.len() + design.as_ref().map_or(0, |(ground, _)| ground.triangles.len());
+    watch.holds(room::of_ground(&existing.0) + design.as_ref().map_or(0, |(ground, _)| room::of_ground(ground)));
+    room::for_overlay(triangles, &existing.1.label, &watch.memory())?;
+    Ok(Surfaces { design, existing, unit })
 }
 
 fn volumes(found: &Between, against: &Against, existing: &Source) -> BetweenVolumes {
