@@ -56,8 +56,8 @@ fn height(x: f64, y: f64) -> f64 {
     100.0 + 20.0 * (x / 173.0).sin() + 15.0 * (y / 131.0).cos() + 0.7 * (x / 7.0).sin() * (y / 9.0).sin()
 }
 
-/// Writes ground of about `count` vertices on a jittered grid of steps of 2 (a plain grid as `asc` and `tif`, points of class 2 as
-/// `las` and `laz`).
+/// Writes ground of about `count` vertices on a jittered grid of steps of 2 (a plain grid as `asc` and `tif`, points of class 2
+/// as `las` and `laz`).
 fn write(case: &str, count: usize, path: &Path) {
     let n = (count as f64).sqrt().round() as usize;
     let mut state = 7_u64;

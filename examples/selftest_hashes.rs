@@ -1,4 +1,5 @@
-//! Writes the hashes that `slopegen selftest` expects of this version: `cargo run --example selftest_hashes`, on x86_64 Linux with glibc.
+//! Writes the hashes that `slopegen selftest` expects of this version: `cargo run --example selftest_hashes`, on x86_64 Linux
+//! with glibc.
 
 use slopegen::selftest;
 use std::path::Path;

@@ -25,7 +25,7 @@ pub use batch::{Batch, run_batch};
 pub use build::{BuildJob, Built, build, build_at};
 pub use check::{CheckJob, Looked, NotPassed, SlopeWish, check};
 pub use design::{DesignError, MOST_LEVELS, Wishes};
-pub use desk::{Bench, Desk};
+pub use desk::{Bench, Desk, write_reports};
 pub use diff::{Beyond, Bounds, DiffError, DiffJob, Differed, Most, diff};
 pub use error::{BuriedError, Error};
 pub use ground::read_ground;

@@ -1,7 +1,7 @@
 //! The report as a page: well formed, closed in itself, and right in a real browser.
 //!
-//! The browser is `chromium`, `chromium-browser` or `google-chrome` of the path, or what the variable `CHROMIUM` names. Without one
-//! the tests that need it say so and pass.
+//! The browser is `chromium`, `chromium-browser` or `google-chrome` of the path, or what the variable `CHROMIUM` names. Without
+//! one the tests that need it say so and pass.
 
 #![allow(clippy::print_stderr, reason = "tells what was skipped")]
 
@@ -348,7 +348,8 @@ fn pages_work_in_a_browser() {
     assert_ne!(browser.evaluate("document.title"), "gone");
 }
 
-/// Texts of the page, drawings aside, with a contrast below 4.5 : 1 (WCAG 2.2, success criterion 1.4.3; relative luminance as there).
+/// Texts of the page, drawings aside, with a contrast below 4.5 : 1 (WCAG 2.2, success criterion 1.4.3; relative luminance as
+/// there).
 const LOW_CONTRAST: &str = r"(() => {
   const rgba = (text) => text.match(/[\d.]+/g).map(Number);
   const luminance = (c) => {

@@ -197,8 +197,9 @@ fn starting_rings_elsewhere() {
     });
 }
 
-/// In the mirror, left is right and sectors are cut from the other end. Lines are taken in an order that their places decide, so in
-/// another one there, and creases between two cones are broken into chords as seen from the first one: some 1e-9 of a volume is theirs.
+/// In the mirror, left is right and sectors are cut from the other end. Lines are taken in an order that their places decide, so
+/// in another one there, and creases between two cones are broken into chords as seen from the first one: some 1e-9 of a volume
+/// is theirs.
 #[test]
 fn mirroring_in_plan() {
     for fixture in fixtures() {

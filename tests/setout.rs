@@ -52,7 +52,8 @@ fn a_straight_line_on_a_grade() {
                     let (sine, length) = (g / k, z / k);
                     close(stake.distance(), length);
                     close(stake.one_in().unwrap(), 1.0 / k);
-                    // Down-grade on the falling sheet; the mirrored line falls, and its rising sheet leans up-grade: the same way.
+                    // Down-grade on the falling sheet; the mirrored line falls, and its rising sheet leans up-grade: the same
+                    // way.
                     close(stake.catch_ahead, -length * sine);
                     close(stake.catch_offset, length * (1.0 - sine * sine).sqrt());
                     close(stake.catch.y, hand * length * (1.0 - sine * sine).sqrt());

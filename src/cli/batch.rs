@@ -1,12 +1,12 @@
 //! `slopegen batch`: many job files, one summary.
 
-use super::args::Running;
-use super::checks::{Checks, UsageErrors};
+use super::build;
 use super::console::{self, Screen};
 use super::exit_code::Code;
 use super::help;
-use super::job;
 use super::job_file::{self, JobFile};
+use super::running::{self, Running};
+use super::usage::{Checks, UsageErrors};
 use crate::model::{Memory, Note};
 use crate::pipeline::{self, Batch, BuildJob, Built, Error, Observer};
 use crate::read::ReadError;
@@ -67,16 +67,17 @@ struct Outcome {
 /// Runs many jobs, and exits with the gravest of their codes.
 pub(super) fn run(args: &BatchArgs) -> anyhow::Result<Code> {
     let mut checks = Checks::default();
-    let at_once = checks.take(at_once(args.jobs.as_ref()));
+    let at_once = checks.whole("--jobs", args.jobs.as_ref(), "jobs", 1..=MOST_AT_ONCE);
     let mut reports = checks.plain_reports(&args.report, args.running.quiet);
-    let at_once = checks.finish(at_once)?;
+    checks.finish(Some(()))?;
+    let at_once = at_once.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
     let tasks: Vec<Task> = paths(args)?.iter().map(|path| task(path)).collect();
     apart(&tasks, reports.iter().map(|(target, _)| target))?;
-    let memory = super::start(&args.running)?;
+    let memory = running::start(&args.running)?;
     let all = console::targets(&reports);
     let screen = Screen::take(&mut reports, &all);
     let jobs: Vec<PathBuf> = tasks.iter().map(|task| PathBuf::from(&task.label)).collect();
-    let mut outputs = Outputs::open(&console::targets(&reports), &jobs).map_err(Error::from)?;
+    let outputs = Outputs::open(&console::targets(&reports), &jobs).map_err(Error::from)?;
 
     let begun = Instant::now();
     let batch = Batch { at_once: at_once.min(tasks.len()), fail_fast: args.fail_fast };
@@ -96,26 +97,13 @@ pub(super) fn run(args: &BatchArgs) -> anyhow::Result<Code> {
         tasks.iter().zip(outcomes).map(|(task, outcome)| outcome.flatten().map_or_else(|| not_run(&task.label), |o| o.row));
     let report = BatchReport::new(rows.collect(), code as u8, begun.elapsed().as_secs_f64());
 
-    for (index, (_, format)) in reports.iter().enumerate() {
-        outputs.write(index, |out| format.write_plain(out, &report, || render_batch(&report))).map_err(Error::from)?;
-    }
-    outputs.commit().map_err(Error::from)?;
-    super::show(screen, |out| Ok(out.write_all(render_batch(&report).as_bytes())?))?;
+    pipeline::write_reports(outputs, &reports, |format, out| format.write_plain(out, &report, || render_batch(&report)))?;
+    running::show(screen, |out| Ok(out.write_all(render_batch(&report).as_bytes())?))?;
     Ok(code)
 }
 
 /// What is said of a job that ended in a panic.
 const BROKEN: &str = "the program failed\n   = help: please report it with the input that shows it";
-
-fn at_once(text: Option<&String>) -> Result<usize, String> {
-    let Some(text) = text else { return Ok(std::thread::available_parallelism().map_or(1, usize::from)) };
-    match text.parse::<usize>() {
-        Ok(n) if (1..=MOST_AT_ONCE).contains(&n) => Ok(n),
-        _ => Err(format!(
-            "`{text}` is not a number of jobs\n  --> --jobs {text}\n   = help: give a whole number from 1 to {MOST_AT_ONCE}"
-        )),
-    }
-}
 
 /// All job files named: by themselves, by folder, in a list.
 fn paths(args: &BatchArgs) -> anyhow::Result<Vec<PathBuf>> {
@@ -161,7 +149,7 @@ fn task(path: &Path) -> Task {
     let job = job_file::load(path).and_then(|(mut args, file)| {
         // Standard output is for the summary.
         args.running.quiet = true;
-        let job = job::build_job(&args).map_err(|errors| UsageErrors::one(file.locate(&errors.to_string())))?;
+        let job = build::job(&args).map_err(|errors| UsageErrors::one(file.locate(&errors.to_string())))?;
         let Footprint { outputs, inputs } = job.footprint();
         for (stream, used) in
             [("output", outputs.contains(&Target::Stdout)), ("input", inputs.iter().any(|path| path == Path::new("-")))]

@@ -1,13 +1,13 @@
 //! `slopegen check`: arguments and job.
 
-use super::args::Running;
-use super::checks::{Checks, LEAST_LENGTH, UsageErrors, targets};
+use super::exit_code::Code;
 use super::help;
 use super::number::{self, Rule};
-use crate::pipeline::{CheckJob, SlopeWish};
+use super::running::{Run, Running};
+use super::usage::{Checks, LEAST_LENGTH, UsageErrors};
+use crate::pipeline::{self, CheckJob, NotPassed, SlopeWish};
 use crate::read::{InputFormat, Pick};
 use crate::report::ReportFormat;
-use crate::write::Target;
 use clap::{Args, ValueEnum};
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -68,34 +68,45 @@ pub(super) enum MeshFormatArg {
     Dxf,
 }
 
+impl MeshFormatArg {
+    fn format(self) -> InputFormat {
+        match self {
+            Self::Obj => InputFormat::Obj,
+            Self::Ply => InputFormat::Ply,
+            Self::Landxml => InputFormat::LandXml,
+            Self::Dxf => InputFormat::Dxf,
+        }
+    }
+}
+
+/// Looks at the mesh; one that does not pass is an error.
+pub(super) fn run(args: &CheckArgs) -> anyhow::Result<Code> {
+    let mut job = job(args)?;
+    let run = Run::begin(&args.running, &mut job.reports)?;
+    let looked = pipeline::check(&job, &run.console)?;
+    run.show(|out| ReportFormat::Text.write_check(out, &looked.report))?;
+    run.wrote(&looked.written);
+    match NotPassed::of(&looked.report) {
+        Some(failed) => Err(failed.into()),
+        None => Ok(Code::Done),
+    }
+}
+
 /// The job of `slopegen check`.
 ///
 /// # Errors
 /// Everything wrong with the arguments.
-pub(super) fn check_job(args: &CheckArgs) -> Result<CheckJob, UsageErrors> {
+pub(super) fn job(args: &CheckArgs) -> Result<CheckJob, UsageErrors> {
     let mut checks = Checks::default();
     let slope = checks.slope("--slope", args.slope.as_ref());
     let tolerance = checks.number("--tolerance-deg", Some(&args.tolerance_deg), Rule::Positive);
     let most_off = checks.take(share("--max-off", &args.max_off));
     let gap = checks.number("--gap", args.gap.as_ref(), Rule::AtLeast(LEAST_LENGTH));
-    let places = checks.take(places(&args.places));
-    let mut reports = Vec::new();
-    for target in targets(&args.report) {
-        let format = checks.format(ReportFormat::of(&target));
-        reports.extend(format.map(|format| (target, format)));
-    }
-    if !reports.iter().any(|(target, _)| *target == Target::Stdout) && !args.running.quiet {
-        reports.push((Target::Stdout, ReportFormat::Text));
-    }
-    let format = args.input_format.map(|format| match format {
-        MeshFormatArg::Obj => InputFormat::Obj,
-        MeshFormatArg::Ply => InputFormat::Ply,
-        MeshFormatArg::Landxml => InputFormat::LandXml,
-        MeshFormatArg::Dxf => InputFormat::Dxf,
-    });
+    let places = checks.whole("--places", Some(&args.places), "places", 0..=MOST_PLACES);
+    let reports = checks.reports(&args.report, args.running.quiet);
     let job = tolerance.zip(most_off).zip(places).map(|((tolerance_deg, most_off), places)| CheckJob {
         path: args.mesh.clone(),
-        format,
+        format: args.input_format.map(MeshFormatArg::format),
         pick: Pick { surface: args.surface.clone(), layers: args.layer.clone(), ..Pick::default() },
         slope: slope.map(|slope| SlopeWish { slope, tolerance_deg, most_off, parts: args.part.clone() }),
         gap,
@@ -112,15 +123,6 @@ fn share(option: &str, text: &str) -> Result<f64, String> {
         return Err(format!("`{text}` is more than all\n  --> {option} {text}\n   = help: give a percentage from 0 to 100"));
     }
     Ok(percent / 100.0)
-}
-
-fn places(text: &str) -> Result<usize, String> {
-    match text.trim().parse::<usize>() {
-        Ok(n) if n <= MOST_PLACES => Ok(n),
-        _ => Err(format!(
-            "`{text}` is not a number of places\n  --> --places {text}\n   = help: give a whole number from 0 to {MOST_PLACES}"
-        )),
-    }
 }
 
 #[cfg(test)]

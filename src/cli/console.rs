@@ -2,7 +2,8 @@
 
 mod paint;
 
-use super::args::Running;
+use super::running::Running;
+use crate::model::message::printable_lines;
 use crate::model::{Memory, Note};
 use crate::pipeline::{Observer, WRITING};
 use crate::report::ReportFormat;
@@ -63,12 +64,12 @@ pub(super) use paint::{asked, choose};
 
 /// Tells a line of a message, whose names from files cannot harm a terminal.
 pub(super) fn tell(message: &str) {
-    say(&printable(message));
+    say(&printable_lines(message));
 }
 
 /// Tells why the program failed.
 pub(super) fn error(message: &str) {
-    say(&format!("error: {}", printable(message)));
+    say(&format!("error: {}", printable_lines(message)));
 }
 
 /// Whether what goes to a target is seen at once.
@@ -79,11 +80,6 @@ pub(super) fn is_terminal(target: &Target) -> bool {
 /// What a note is called.
 pub(super) fn kind(note: &Note) -> &'static str {
     if note.is_warning() { "warning" } else { "note" }
-}
-
-/// Text that may hold names from files, without characters that would move the cursor or colour a terminal.
-fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() && c != '\n' { ' ' } else { c }).collect()
 }
 
 /// Shows what goes on, as much as was asked for.
@@ -117,7 +113,7 @@ impl Console {
     pub(super) fn wrote(&self, target: &Target, size: &str) {
         if !self.quiet {
             let colon = if size.is_empty() { "" } else { ": " };
-            self.say(&printable(&format!("wrote {target}{colon}{size}")));
+            self.say(&printable_lines(&format!("wrote {target}{colon}{size}")));
         }
     }
 
@@ -178,7 +174,7 @@ impl Watch for Console {
 impl Observer for Console {
     fn note(&self, note: &Note) {
         if !self.quiet && !self.notes_elsewhere {
-            self.say(&printable(&format!("{}[{}]: {}", kind(note), note.code, note.message)));
+            self.say(&printable_lines(&format!("{}[{}]: {}", kind(note), note.code, note.message)));
         }
     }
 }

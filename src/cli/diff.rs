@@ -1,11 +1,10 @@
 //! `slopegen diff`: arguments and job.
 
-use super::args::Running;
-use super::checks::{Checks, UsageErrors};
-use super::console::{self, Console, Screen};
 use super::exit_code::Code;
 use super::help;
 use super::number::{self, Rule};
+use super::running::{Run, Running};
+use super::usage::{Checks, UsageErrors};
 use crate::pipeline::{self, Beyond, Bounds, DiffJob, Most};
 use crate::read::Pick;
 use crate::read::terrain::TerrainOptions;
@@ -33,7 +32,8 @@ pub(super) struct DiffArgs {
     #[arg(long, value_name = "UNIT", help_heading = help::INPUT)]
     pub(super) units: Option<String>,
 
-    /// Exit with 5 if cut or fill differ by more: a volume, or a share such as 0.5% of the greater; of surfaces the volume between
+    /// Exit with 5 if cut or fill differ by more: a volume, or a share such as 0.5% of the greater; of surfaces the volume
+    /// between
     #[arg(long, value_name = "V", allow_negative_numbers = true, help_heading = help::CHECKS)]
     pub(super) max_volume: Option<String>,
     /// Exit with 5 if areas of cut or fill differ by more, or more area is covered by only one surface: an area, or a share
@@ -57,15 +57,10 @@ pub(super) struct DiffArgs {
 /// Compares, and fails beyond a bound.
 pub(super) fn run(args: &DiffArgs) -> anyhow::Result<Code> {
     let mut job = job(args)?;
-    let memory = super::start(&args.running)?;
-    let to_terminal = job.reports.iter().any(|(target, _)| console::is_terminal(target));
-    let all = console::targets(&job.reports);
-    let screen = Screen::take(&mut job.reports, &all);
-    let console = Console::new(&args.running, memory, to_terminal);
-    let differed = pipeline::diff(&job, &console)?;
-    console.finish();
-    super::show(screen, |out| Ok(out.write_all(render_diff(&differed.report).as_bytes())?))?;
-    differed.written.iter().for_each(|target| console.wrote(target, ""));
+    let run = Run::begin(&args.running, &mut job.reports)?;
+    let differed = pipeline::diff(&job, &run.console)?;
+    run.show(|out| Ok(out.write_all(render_diff(&differed.report).as_bytes())?))?;
+    run.wrote(&differed.written);
     match Beyond::of(&differed.report) {
         Some(beyond) => Err(beyond.into()),
         None => Ok(Code::Done),

@@ -1,8 +1,8 @@
 //! What the process exits with.
 
-use super::NoThreads;
-use super::checks::UsageErrors;
+use super::running::NoThreads;
 use super::selftest::SelftestFailed;
+use super::usage::UsageErrors;
 use crate::ground::GroundError;
 use crate::pipeline::{Beyond, Error, NotPassed, NotVerified};
 use crate::read::ReadError;

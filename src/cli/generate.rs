@@ -1,7 +1,7 @@
 //! Completions and manual pages, from the same declarations and texts as the help.
 
-use super::checks::UsageErrors;
 use super::help;
+use super::usage::UsageErrors;
 use crate::pipeline::Error;
 use crate::write::{EncodeError, Outputs, Target};
 use clap::{Args, Command};

@@ -1,12 +1,12 @@
 //! `slopegen info`: arguments, and job files, which only the command line knows.
 
-use super::args::Running;
-use super::checks::{Checks, UsageErrors};
-use super::console::{self, Console, Screen};
+use super::build;
+use super::console;
 use super::exit_code::Code;
 use super::help;
-use super::job;
 use super::job_file;
+use super::running::{Run, Running};
+use super::usage::{Checks, UsageErrors};
 use crate::pipeline;
 use crate::read::{Pick, ReadOptions};
 use crate::report::info::{InfoReport, Setting, render_info};
@@ -49,26 +49,18 @@ pub(super) fn run(args: &InfoArgs) -> anyhow::Result<Code> {
     let unit = checks.unit(args.units.as_ref());
     let reports = checks.plain_reports(&args.report, args.running.quiet);
     let mut reports = checks.finish(Some(reports))?;
-    let memory = super::start(&args.running)?;
-    let to_terminal = reports.iter().any(|(target, _)| console::is_terminal(target));
-    let all = console::targets(&reports);
-    let screen = Screen::take(&mut reports, &all);
-    let targets = console::targets(&reports);
-    let mut outputs = Outputs::open(&targets, std::slice::from_ref(&args.file)).map_err(pipeline::Error::from)?;
-    let console = Console::new(&args.running, memory, to_terminal);
+    let run = Run::begin(&args.running, &mut reports)?;
+    let outputs = Outputs::open(&console::targets(&reports), std::slice::from_ref(&args.file)).map_err(pipeline::Error::from)?;
     let pick = Pick { surface: args.surface.clone(), ..Pick::default() };
     let report = if job_file::is_job(&args.file) {
         job(&args.file)?
     } else {
-        pipeline::info(&args.file, &ReadOptions { csv_order, pick, unit, ..ReadOptions::default() }, &console)?
+        pipeline::info(&args.file, &ReadOptions { csv_order, pick, unit, ..ReadOptions::default() }, &run.console)?
     };
-    for (index, (_, format)) in reports.iter().enumerate() {
-        outputs.write(index, |out| format.write_plain(out, &report, || render_info(&report))).map_err(pipeline::Error::from)?;
-    }
-    outputs.commit().map_err(pipeline::Error::from)?;
-    console.finish();
-    super::show(screen, |out| Ok(out.write_all(render_info(&report).as_bytes())?))?;
-    targets.iter().filter(|target| !target.is_stream()).for_each(|target| console.wrote(target, ""));
+    let written =
+        pipeline::write_reports(outputs, &reports, |format, out| format.write_plain(out, &report, || render_info(&report)))?;
+    run.show(|out| Ok(out.write_all(render_info(&report).as_bytes())?))?;
+    run.wrote(&written);
     Ok(if args.strict && !report.is_sound() { Code::Check } else { Code::Done })
 }
 
@@ -76,7 +68,7 @@ pub(super) fn run(args: &InfoArgs) -> anyhow::Result<Code> {
 fn job(path: &Path) -> anyhow::Result<InfoReport> {
     let bytes = job_file::read_short(path)?;
     let checked = job_file::load(path).and_then(|(args, file)| {
-        let job = job::build_job(&args).map_err(|errors| UsageErrors::one(file.locate(&errors.to_string())))?;
+        let job = build::job(&args).map_err(|errors| UsageErrors::one(file.locate(&errors.to_string())))?;
         Ok((job, file))
     });
     let (settings, defects) = match checked {

@@ -1,8 +1,8 @@
 //! What happens on Ctrl-C, and on other signals that ask the program to end.
 
-#[cfg(unix)]
-use super::NoThreads;
 use super::exit_code::Code;
+#[cfg(unix)]
+use super::running::NoThreads;
 use crate::write::discard_unfinished;
 use anyhow::Context as _;
 

@@ -6,10 +6,10 @@
 mod entry;
 mod nearest;
 
-use super::args::{Arguments, BuildArgs, Command};
-use super::checks::UsageErrors;
-use super::job;
+use super::args::{Arguments, Command};
+use super::build::{self, BuildArgs};
 use super::record;
+use super::usage::UsageErrors;
 use crate::pipeline::Error;
 use crate::read::ReadError;
 use clap::error::{ContextKind, ErrorKind};
@@ -115,7 +115,7 @@ fn named(arguments: &[OsString]) -> Option<(PathBuf, Vec<Id>)> {
     let matches = Arguments::command().ignore_errors(true).try_get_matches_from(arguments).ok()?;
     let (BUILD, matches) = matches.subcommand()? else { return None };
     let path = PathBuf::from(matches.get_raw(INPUT)?.next()?);
-    let command = build();
+    let command = declared();
     // The line on the command line is the job file itself.
     let given =
         |arg: &&Arg| arg.get_id() != INPUT && matches.value_source(arg.get_id().as_str()) == Some(ValueSource::CommandLine);
@@ -140,7 +140,7 @@ pub(super) fn read_short(path: &Path) -> anyhow::Result<Vec<u8>> {
 }
 
 /// The parser of `build` as declared.
-fn build() -> clap::Command {
+fn declared() -> clap::Command {
     let command = Arguments::command();
     command.find_subcommand(BUILD).cloned().unwrap_or(command)
 }
@@ -161,7 +161,7 @@ impl JobFile {
     }
 
     fn parse(label: String, folder: PathBuf, bytes: &[u8], given: Vec<Id>) -> Result<Self, UsageErrors> {
-        let entries = entry::entries(&label, &folder, bytes, &build())?;
+        let entries = entry::entries(&label, &folder, bytes, &declared())?;
         let file = Self { label, folder, entries, given };
         file.check_values()?;
         Ok(file)
@@ -189,7 +189,7 @@ impl JobFile {
 
     /// The options that count, as arguments.
     fn words(&self) -> Vec<OsString> {
-        let command = build();
+        let command = declared();
         let mut replaced = self.given.clone();
         for arg in command.get_arguments().filter(|arg| self.given.contains(arg.get_id())) {
             // What cannot stand beside an option typed in gives way to it.
@@ -212,7 +212,7 @@ impl JobFile {
         };
         args.input.input = PathBuf::from(&input.word);
         if args.output.is_empty() {
-            args.output.push(self.folder.join(job::default_output(&args.input.input)).into_os_string());
+            args.output.push(self.folder.join(build::default_output(&args.input.input)).into_os_string());
         }
         let shown = |word: &OsString| word.to_string_lossy().into_owned();
         args.options.insert(INPUT.to_owned(), vec![shown(&input.word)]);
@@ -280,7 +280,7 @@ impl JobFile {
 
     /// Whether an option was given on the command line.
     fn is_typed(&self, name: &str) -> bool {
-        build().get_arguments().any(|arg| arg.get_long() == Some(name) && self.given.contains(arg.get_id()))
+        declared().get_arguments().any(|arg| arg.get_long() == Some(name) && self.given.contains(arg.get_id()))
     }
 
     /// The same error, with places in this file in its message.

@@ -117,8 +117,8 @@ thread_local! {
     static ENDING: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Ends the process because `bytes` of memory were asked for and there are none: removes unfinished files, says so, and exits with
-/// the code for it. For the program's allocator; takes no locks that another thread could hold for long, and no memory.
+/// Ends the process because `bytes` of memory were asked for and there are none: removes unfinished files, says so, and exits
+/// with the code for it. For the program's allocator; takes no locks that another thread could hold for long, and no memory.
 pub fn out_of_memory(bytes: usize) -> ! {
     /// How long another thread may take to give the outputs their names.
     const PATIENCE: Duration = Duration::from_secs(2);

@@ -38,6 +38,19 @@ pub(super) fn read(option: &str, text: &str, rule: Rule) -> Result<f64, String> 
     }
 }
 
+/// Reads a whole number of `things` for `option`, within a range.
+///
+/// # Errors
+/// As [`read`].
+pub(super) fn whole(option: &str, text: &str, things: &str, range: RangeInclusive<usize>) -> Result<usize, String> {
+    text.trim().parse::<usize>().ok().filter(|number| range.contains(number)).ok_or_else(|| {
+        let (least, most) = range.into_inner();
+        format!(
+            "`{text}` is not a number of {things}\n  --> {option} {text}\n   = help: give a whole number from {least} to {most}"
+        )
+    })
+}
+
 /// Reads a share such as `25%` for `option`, within limits.
 ///
 /// # Errors
@@ -78,6 +91,18 @@ mod tests {
             assert!(error.starts_with(&format!("`{text}` {what}")), "{error}");
         }
     }
+
+    #[test]
+    fn whole_numbers() {
+        assert_eq!(whole("--threads", "4", "threads", 1..=8), Ok(4));
+        for text in ["0", "9", "-1", "2.5", "four", "", "99999999999999999999999"] {
+            let expected = format!(
+                "`{text}` is not a number of threads\n  --> --threads {text}\n   = help: give a whole number from 1 to 8"
+            );
+            assert_eq!(whole("--threads", text, "threads", 1..=8), Err(expected));
+        }
+    }
+
     #[test]
     fn shares() {
         let limits = -1.0..=0.9;

@@ -7,8 +7,8 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, CommandFactory as _};
 use std::ffi::OsString;
 
-/// What was given to a command, by the long names of options; files given by position by their own. What only says how the program runs
-/// is left out.
+/// What was given to a command, by the long names of options; files given by position by their own. What only says how the
+/// program runs is left out.
 pub(super) fn options(command: &str, matches: &ArgMatches) -> Options {
     let all = Arguments::command();
     let Some(declared) = all.find_subcommand(command) else { return Options::new() };

@@ -1,10 +1,10 @@
 //! `slopegen selftest`: the cases with known figures, run on this machine.
 
-use super::args::Running;
-use super::checks::Checks;
-use super::console::{self, Console, Screen};
+use super::console;
 use super::exit_code::Code;
 use super::help;
+use super::running::{Run, Running};
+use super::usage::Checks;
 use crate::pipeline;
 use crate::report::{SelftestReport, render_selftest};
 use crate::selftest;
@@ -44,28 +44,18 @@ pub(super) fn run(args: &SelftestArgs) -> anyhow::Result<Code> {
     let mut checks = Checks::default();
     let reports = checks.plain_reports(&args.report, args.running.quiet);
     let mut reports = checks.finish(Some(reports))?;
-    let memory = super::start(&args.running)?;
-    let to_terminal = reports.iter().any(|(target, _)| console::is_terminal(target));
-    let all = console::targets(&reports);
-    let screen = Screen::take(&mut reports, &all);
-    let targets = console::targets(&reports);
-    let mut outputs = Outputs::open::<PathBuf>(&targets, &[]).map_err(pipeline::Error::from)?;
-    let console = Console::new(&args.running, memory, to_terminal);
+    let run = Run::begin(&args.running, &mut reports)?;
+    let outputs = Outputs::open::<PathBuf>(&console::targets(&reports), &[]).map_err(pipeline::Error::from)?;
     let verbose = args.running.verbose;
     let report = selftest::run(&selftest::cases::all(), |name, seconds| {
         if verbose {
             console::tell(&format!("{seconds:8.3} s  {name}"));
         }
     });
-    for (index, (_, format)) in reports.iter().enumerate() {
-        outputs
-            .write(index, |out| format.write_plain(out, &report, || render_selftest(&report)))
-            .map_err(pipeline::Error::from)?;
-    }
-    outputs.commit().map_err(pipeline::Error::from)?;
-    console.finish();
-    super::show(screen, |out| Ok(out.write_all(render_selftest(&report).as_bytes())?))?;
-    targets.iter().filter(|target| !target.is_stream()).for_each(|target| console.wrote(target, ""));
+    let written =
+        pipeline::write_reports(outputs, &reports, |format, out| format.write_plain(out, &report, || render_selftest(&report)))?;
+    run.show(|out| Ok(out.write_all(render_selftest(&report).as_bytes())?))?;
+    run.wrote(&written);
     verdict(&report)
 }
 

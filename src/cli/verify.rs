@@ -1,10 +1,11 @@
 //! `slopegen verify`: arguments, the run a report states, and where its files are.
 
-use super::args::{Command, Running};
-use super::checks::UsageErrors;
+use super::args::Command;
 use super::console::Console;
 use super::exit_code::Code;
-use super::{help, job, job_file, record};
+use super::running::{self, Running};
+use super::usage::UsageErrors;
+use super::{build, help, job_file, record, volume};
 use crate::pipeline::{self, Error, NotVerified, Rerun, VerifyJob};
 use crate::read::{Document, ReadError, read_document};
 use crate::report::{Options, SCHEMA, render_verified};
@@ -35,7 +36,8 @@ pub(super) struct VerifyArgs {
 pub(super) fn run(args: &VerifyArgs) -> anyhow::Result<Code> {
     let document = document(&args.report)?;
     let job = verify_job(args, document)?;
-    let memory = super::start(&args.running)?;
+    let memory = running::start(&args.running)?;
+    // The text tells the notes.
     let console = Console::new(&args.running, memory, true);
     let verified = pipeline::verify(&job, &console)?;
     console.finish();
@@ -116,8 +118,8 @@ fn verify_job(args: &VerifyArgs, document: Document) -> anyhow::Result<VerifyJob
         damaged(&format!("`run.options`: {}", clipped(text.lines().next().unwrap_or_default())))
     };
     let rerun = match parsed.command {
-        Command::Build(args) => Rerun::Build(Box::new(job::build_job(&args).map_err(wrong)?)),
-        Command::Volume(args) => Rerun::Volume(Box::new(job::volume_job(&args).map_err(wrong)?)),
+        Command::Build(args) => Rerun::Build(Box::new(build::job(&args).map_err(wrong)?)),
+        Command::Volume(args) => Rerun::Volume(Box::new(volume::job(&args).map_err(wrong)?)),
         _ => return Err(damaged("`run.command` is neither `build` nor `volume`")),
     };
     let base = base(path, run.get("folder").and_then(Value::as_str));

@@ -2,6 +2,7 @@
 
 use super::build::met as meets_ground;
 use super::cell::{Label, TOUCH};
+use super::certificate::certificate;
 use super::feeder::Fed;
 use super::finished::Left;
 use super::nodes::Nodes;
@@ -12,13 +13,12 @@ use super::stations::Stations;
 use super::trimmed::Trimmed;
 use super::works::{Border, End, Works};
 use super::{Axis, GroundError, Pieces, SectionFigures, Tallied};
-use crate::kernel::orientation::{Turn, turn};
 use crate::kernel::sum::Sum;
-use crate::mesh::check::{self, HalfEdges, Soundness};
+use crate::mesh::check::{self, HalfEdges};
 use crate::mesh::{polygon, volume};
 use crate::model::{CurveKind, Design, Line, LineFeature, Note, Part, Sheet, Terrain, Tin};
 use crate::surface::curves::{self, chained};
-use crate::surface::{Areas, CONE_BOUND, Certificate, MEASURABLE_HEIGHT, Mark, Moves, STRIP_BOUND, Surface};
+use crate::surface::{Areas, Certificate, Mark, Moves, Surface, flaw};
 use glam::DVec3;
 use rustc_hash::FxHashSet;
 
@@ -202,73 +202,6 @@ fn error_bound(found: &Found, number: &Numbering, design: &Tin, edges: &HalfEdge
     let tallied = &found.fed.tallied;
     let deepest = [&tallied.deepest_cut, &tallied.deepest_fill].into_iter().flatten().map(|d| d.depth).fold(0.0, f64::max);
     line * all + cone * cones + strips.collect::<Sum>().value() * (deepest + line + cone)
-}
-
-/// Measures the design cut off at the ground; what cutting does not change is taken from the whole sheets.
-fn certificate(found: &Found, design: &Tin, soundness: &Soundness) -> Result<Certificate, GroundError> {
-    let sheets = found.surfaces.iter().map(|s| s.certificate);
-    let mut certificate = Certificate {
-        paired: true,
-        manifold: soundness.manifold(),
-        overlaps: soundness.overlaps,
-        input_edges_kept: true,
-        ..Certificate::default()
-    };
-    for sheet in sheets {
-        certificate.paired &= sheet.paired;
-        certificate.input_edges_kept &= sheet.input_edges_kept;
-        certificate.height_max_deviation = certificate.height_max_deviation.max(sheet.height_max_deviation);
-    }
-    for (t, &a) in found.trimmed.from.iter().enumerate() {
-        let foot = found.shape.foot_of[a as usize];
-        let [p, q, r] = design.corners(t);
-        if foot == NONE || p.z.max(q.z).max(r.z) - p.z.min(q.z).min(r.z) <= MEASURABLE_HEIGHT {
-            continue;
-        }
-        let sheet = if design.parts[t] == Part::CutSlope { Sheet::Rising } else { Sheet::Falling };
-        let Some(slope) = found.designs.iter().find(|d| d.sheet == sheet).map(|d| d.slope) else { continue };
-        let normal = (q - p).cross(r - p);
-        // A sliver along the daylight line has no normal that its own rounding would not turn.
-        let base = (q - p).length().max((r - q).length()).max((p - r).length());
-        if normal.length() <= base * MEASURABLE_HEIGHT {
-            continue;
-        }
-        let deviation = (normal.truncate().length().atan2(normal.z) - slope.ratio().atan()).abs().to_degrees();
-        let on_cone = found.shape.feet[foot as usize].on_cone;
-        let worst = if on_cone { &mut certificate.sector_max_deviation_deg } else { &mut certificate.strip_max_deviation_deg };
-        *worst = worst.max(deviation);
-        certificate.triangles_beyond_0_1deg += usize::from(deviation > 0.1);
-    }
-    let flaw = flaw(soundness, design).or_else(|| {
-        let (strip, cone) = (certificate.strip_max_deviation_deg, certificate.sector_max_deviation_deg);
-        (strip > STRIP_BOUND || cone > CONE_BOUND).then(|| format!("a slope triangle is {:.4}° off the slope", strip.max(cone)))
-    });
-    match flaw {
-        Some(what) => Err(GroundError::Unsound { mesh: "design", what }),
-        None => Ok(certificate),
-    }
-}
-
-fn flaw(soundness: &Soundness, tin: &Tin) -> Option<String> {
-    if !soundness.manifold() {
-        let plan = |t: usize| tin.corners(t).map(|p| p.truncate());
-        let turned = (0..tin.triangles.len()).find(|&t| {
-            let [a, b, c] = plan(t);
-            turn(a, b, c) != Turn::Left
-        });
-        let near = turned.map_or(String::new(), |t| {
-            let at = tin.world(tin.triangles[t][0] as usize);
-            format!(" (first near ({:.3}, {:.3}))", at.x, at.y)
-        });
-        return Some(format!(
-            "{} triangles turned over or degenerate{near}, {} edges used twice, {} unused vertices",
-            soundness.turned, soundness.repeated_edges, soundness.unused
-        ));
-    }
-    soundness.overlap_at.map(|at| {
-        let at = tin.frame.to_world(at.extend(0.0));
-        format!("its boundary crosses itself {} times, first near ({:.3}, {:.3})", soundness.overlaps, at.x, at.y)
-    })
 }
 
 /// The pieces of boundary where design and ground meet, as numbers of nodes.

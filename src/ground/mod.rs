@@ -2,6 +2,7 @@
 
 mod build;
 mod cell;
+mod certificate;
 pub mod depths;
 pub mod end_areas;
 mod error;

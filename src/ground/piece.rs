@@ -16,8 +16,8 @@ pub struct Corner {
 
 /// A convex piece of the works over one ground triangle, corners counter-clockwise; `height` and `station` are linear over it.
 ///
-/// Pieces of one build do not overlap in plan. Fill slopes have no negative heights, cut slopes no positive ones, except inside rings:
-/// there, as on platforms, both signs count. On a cone sector the station is the same all over.
+/// Pieces of one build do not overlap in plan. Fill slopes have no negative heights, cut slopes no positive ones, except inside
+/// rings: there, as on platforms, both signs count. On a cone sector the station is the same all over.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece<'a> {
     /// What it is a piece of: platform, fill slope or cut slope.

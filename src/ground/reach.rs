@@ -32,8 +32,8 @@ const WIDER: f64 = 1e-6;
 /// Lowest and highest ground over the cells of a coarse grid.
 ///
 /// Grounds have millions of triangles of which the works touch few, so the pass over all of them decides the time. It looks at
-/// columns and rows of vertices, found once, and nearly all triangles have their vertices in one cell or two. Later ones leave out
-/// whole blocks of triangles by the box of their cells.
+/// columns and rows of vertices, found once, and nearly all triangles have their vertices in one cell or two. Later ones leave
+/// out whole blocks of triangles by the box of their cells.
 pub(crate) struct Bounds {
     origin: DVec2,
     cell: DVec2,

@@ -29,14 +29,14 @@ impl BoxTree {
         Self { tree: Tree::new(in_order().map(|(_, one)| one).collect()), names: in_order().map(|(name, _)| name).collect() }
     }
 
-    /// Calls `visit` with the name of every box that meets or touches another. The order is the same for the same boxes, but means
-    /// nothing.
+    /// Calls `visit` with the name of every box that meets or touches another. The order is the same for the same boxes, but
+    /// means nothing.
     pub fn meeting(&self, wanted: &PlanBox, mut visit: impl FnMut(u32)) {
         self.tree.search(|_, node| node.meets(wanted), |one| one.meets(wanted), |i| visit(self.names[i]));
     }
 
-    /// Calls `visit` once for every pair of boxes that meet or touch, with their names, until it returns `false`. The order is the
-    /// same for the same boxes, but means nothing.
+    /// Calls `visit` once for every pair of boxes that meet or touch, with their names, until it returns `false`. The order is
+    /// the same for the same boxes, but means nothing.
     pub fn pairs(&self, mut visit: impl FnMut(u32, u32) -> bool) {
         let apart = |m, n| !self.tree.node(m).meets(self.tree.node(n));
         self.tree.pairs(apart, |i, j| visit(self.names[i], self.names[j]));

@@ -6,9 +6,11 @@ pub mod frame;
 pub mod hash;
 pub mod orientation;
 pub mod plan_box;
+pub mod range;
 pub mod segment;
 pub mod segment_tree;
 pub mod sum;
 #[cfg(test)]
 pub(crate) mod testing;
 mod tree;
+pub mod union;

@@ -41,6 +41,12 @@ impl PlanBox {
         self.lo.cmple(other.hi).all() && other.lo.cmple(self.hi).all()
     }
 
+    /// Whether a point lies in it, be it on its edges.
+    #[inline]
+    pub fn contains(&self, p: DVec2) -> bool {
+        self.lo.cmple(p).all() && p.cmple(self.hi).all()
+    }
+
     /// Width and height; −∞ of an empty box.
     pub fn size(&self) -> DVec2 {
         self.hi - self.lo

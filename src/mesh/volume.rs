@@ -73,6 +73,12 @@ impl MeshAreas {
         areas
     }
 
+    /// Adds those of other triangles.
+    pub fn join(&mut self, other: Self) {
+        self.plan.join(other.plan);
+        self.surface.join(other.surface);
+    }
+
     /// Area in plan.
     pub fn plan(&self) -> f64 {
         self.plan.value()

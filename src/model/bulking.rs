@@ -52,8 +52,8 @@ impl Bulking {
 
 /// A share as typed: `25%`, `0.25`.
 ///
-/// A plain number of 1 or more may be meant as a factor, a share or percent, and is refused; so is one from 0.5 to 1, which may be
-/// the factor that is left of a volume.
+/// A plain number of 1 or more may be meant as a factor, a share or percent, and is refused; so is one from 0.5 to 1, which may
+/// be the factor that is left of a volume.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Share(pub f64);
 

@@ -1,5 +1,7 @@
 //! The given line: one or more 3D polylines and rings.
 
+use crate::kernel::plan_box::PlanBox;
+use crate::kernel::range::range;
 use glam::DVec3;
 
 /// Where a vertex stands in its file, for messages. All numbers count from 1.
@@ -127,9 +129,15 @@ impl Line {
 
     /// Lowest and highest elevation of the line.
     pub fn elevation_range(&self) -> (f64, f64) {
-        self.chains
-            .iter()
-            .flat_map(|c| &c.vertices)
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v.z), hi.max(v.z)))
+        range(self.vertices().map(|v| v.z))
+    }
+
+    /// Plan box of all vertices.
+    pub fn plan_box(&self) -> PlanBox {
+        PlanBox::of(self.vertices().map(|v| v.truncate()))
+    }
+
+    fn vertices(&self) -> impl Iterator<Item = &DVec3> {
+        self.chains.iter().flat_map(|chain| &chain.vertices)
     }
 }

@@ -5,6 +5,7 @@ pub mod design;
 pub(crate) mod digits;
 pub mod line;
 pub mod memory;
+pub mod message;
 pub mod notation;
 pub mod note;
 pub mod slope;

@@ -143,8 +143,8 @@ fn join(done: &[Tally]) -> Tally {
     all
 }
 
-/// Works on the numbers below `count` in chunks of fixed size and returns what came out of each, in order: the same for any number
-/// of threads. Each thread gets tools of its own.
+/// Works on the numbers below `count` in chunks of fixed size and returns what came out of each, in order: the same for any
+/// number of threads. Each thread gets tools of its own.
 pub(super) fn in_chunks<T, R: Send>(
     count: usize,
     tools: impl Fn() -> T + Sync,

@@ -43,8 +43,8 @@ impl<'a> Walker<'a> {
 
     /// Calls `visit` with every triangle that shares plan area with the patch and with the part they share, each once.
     ///
-    /// From one triangle inside, neighbours are entered across the edges that run through the patch. All that cannot be reached so
-    /// has a rim inside the patch, so the triangles at the rim are tried too. A sliver shares no area with anything.
+    /// From one triangle inside, neighbours are entered across the edges that run through the patch. All that cannot be reached
+    /// so has a rim inside the patch, so the triangles at the rim are tried too. A sliver shares no area with anything.
     pub(super) fn over(&mut self, patch: &Patch, mut visit: impl FnMut(u32, &Ring)) {
         if patch.is_sliver() {
             return;

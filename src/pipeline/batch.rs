@@ -49,8 +49,8 @@ impl<R, F: FnMut(usize, &R)> Progress<R, F> {
 /// Runs the jobs 0 to `count` − 1, several at once, and returns what became of each; `None`: not begun, because another failed.
 ///
 /// `work` says whether the job is done as well; a panic in it becomes what `broken` makes of it. `tell` learns the results one by
-/// one in the order of the jobs, whichever is done first. With one job at a time `fail_fast` stops right behind the first failure;
-/// with several, jobs that were begun until then are brought to their end.
+/// one in the order of the jobs, whichever is done first. With one job at a time `fail_fast` stops right behind the first
+/// failure; with several, jobs that were begun until then are brought to their end.
 pub fn run_batch<R: Send>(
     count: usize,
     batch: Batch,

@@ -1,7 +1,11 @@
 //! The main job: a line to a surface, its files and its report.
 
+mod contents;
+
+pub(super) use contents::targets;
+
 use super::error::NoStation;
-use super::heads::{LocalOrigin, Names, coarse, has_colours, heights_over, is_local, local_origin};
+use super::heads::{LocalOrigin, Names, coarse, has_colours, heights_over, local_origin};
 use super::watch::{CHECKING, Observer, PREPARING, READING, READING_GROUND, Stopwatch, WRITING};
 use super::{
     BuriedError, Desk, Error, Given, GroundInput, LineInput, Rasters, Wishes, check_steepness, desk, figures, on_ground, rasters,
@@ -11,16 +15,14 @@ use crate::ground::{Pieces, Stations, Tallied, axes};
 use crate::kernel::frame::Frame;
 use crate::mesh::fingerprint::fingerprint;
 use crate::model::{Bulking, Line, LineFeature, Note, Sheet, Terrain, Tin};
-use crate::plot::{self, Drawing, OnGround, Scene};
+use crate::plot::{Drawing, OnGround, Scene};
 use crate::read::Source;
-use crate::report::{CrossfallFigures, Report, ReportFormat, ResultFigures, RunRecord, write_station_table};
+use crate::report::{CrossfallFigures, Report, ReportFormat, ResultFigures, RunRecord, Warning};
 use crate::setout::{self, Stake};
 use crate::slope::levels::LEVEL_SNAP;
 use crate::surface::{self, Watch as _};
-use crate::write::{
-    Delivery, Earthworks, Head, LineFormat, MeshFormat, Outputs, RasterFormat, Target, WriteError, origin, write_origin,
-    write_stakes,
-};
+use crate::write::{Earthworks, LineFormat, MeshFormat, RasterFormat, Target};
+use contents::{Made, contents};
 use std::path::Path;
 
 /// A surface to be built, and where to put it.
@@ -73,22 +75,6 @@ pub struct Built {
     pub written: Vec<Target>,
 }
 
-/// What one output holds.
-#[derive(Clone, Copy)]
-enum Content {
-    Mesh(MeshFormat),
-    Finished(MeshFormat),
-    Raster(RasterFormat),
-    FinishedRaster(RasterFormat),
-    Lines(LineFormat),
-    Stakes,
-    Plot(Drawing),
-    Stations,
-    /// Origin of the mesh of the output with this number.
-    Origin(usize),
-    Report(ReportFormat),
-}
-
 /// Builds a surface and writes it. The outputs are opened first, and appear together at the end or not at all.
 ///
 /// # Errors
@@ -103,7 +89,7 @@ pub fn build(job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
 /// As [`build`].
 pub fn build_at(desk: Desk<'_>, job: &BuildJob, observer: &dyn Observer) -> Result<Built, Error> {
     let watch = Stopwatch::new(observer);
-    let (targets, contents): (Vec<Target>, Vec<Content>) = wanted(job).into_iter().unzip();
+    let (targets, contents): (Vec<Target>, Vec<_>) = contents(job).into_iter().unzip();
     let ground_path = job.ground.as_ref().map(|ground| ground.path.as_path());
     let inputs: Vec<&Path> = std::iter::once(job.input.path.as_path()).chain(ground_path).collect();
     let record = desk.records(&job.reports);
@@ -135,70 +121,49 @@ pub fn build_at(desk: Desk<'_>, job: &BuildJob, observer: &dyn Observer) -> Resu
     };
     let raster = grid(&job.rasters.design, &design)?;
     let finished_raster = finished.as_ref().map(|tin| grid(&job.rasters.finished, tin)).transpose()?.flatten();
-    let reference = rasters::reference(&source, ground.as_ref(), job.input.unit, unit);
 
     watch.stage_of(WRITING);
     let local = local_origin(job, &design, finished.as_ref());
     if let Some(note) = coarse(job, &design, finished.as_ref(), local) {
         watch.note(&note);
-        report.warnings.push(figures::warning(&note));
+        report.warnings.push(Warning::plain(&note));
     }
     let names = Names::of(job);
     let earthworks = report.volumes.as_ref().filter(|_| job.ground.is_some());
     let earthworks = earthworks.map(|v| Earthworks { ground: &names.ground, cut: v.cut, fill: v.fill });
     // Of the line, else of the ground.
     let crs = report.inputs.iter().find_map(|input| input.crs.clone());
-    let crs = crs.as_deref();
-    let scene = Scene {
-        title: &source.label,
-        unit,
-        crs,
-        line: &line,
-        design: &design,
-        lines: &lines,
-        bulking: job.bulking,
-        ground: survey.as_ref().map(Survey::scene),
-    };
-    let head = Head { crs, unit, name: &names.design, lines: &lines, earthworks, origin: None, depths: None };
-    let about = |format: MeshFormat| Head { origin: Some(local).filter(|_| is_local(job, format)), ..head };
     let over_ground = |tin: &Tin| survey.as_ref().filter(|_| has_colours(job)).and_then(|s| heights_over(tin, &s.terrain));
-    let (depths, finished_depths) = (over_ground(&design), finished.as_ref().and_then(over_ground));
+    let made = Made {
+        job,
+        targets: &targets,
+        contents: &contents,
+        scene: Scene {
+            title: &source.label,
+            unit,
+            crs: crs.as_deref(),
+            line: &line,
+            design: &design,
+            lines: &lines,
+            bulking: job.bulking,
+            ground: survey.as_ref().map(Survey::scene),
+        },
+        names: &names,
+        earthworks,
+        local,
+        depths: over_ground(&design),
+        raster,
+        finished: finished.as_ref(),
+        finished_depths: finished.as_ref().and_then(over_ground),
+        finished_raster,
+        reference: rasters::reference(&source, ground.as_ref(), job.input.unit, unit),
+        stakes: &stakes,
+    };
     if !job.plots.is_empty() || job.reports.iter().any(|(_, format)| format.draws()) {
         room::for_drawings(&design, &source.label, &watch.memory())?;
     }
-    let is_json = |index: usize| matches!(contents[index], Content::Report(ReportFormat::Json));
-    let put = |outputs: &mut Outputs, index: usize, report: &Report| -> Result<Delivery, WriteError> {
-        outputs.write(index, |out| match contents[index] {
-            Content::Mesh(format) => format.write(out, &design, &Head { depths: depths.as_deref(), ..about(format) }),
-            Content::Finished(format) => {
-                let head = Head { name: &names.finished, depths: finished_depths.as_deref(), ..about(format) };
-                finished.as_ref().map_or(Ok(()), |tin| format.write(out, tin, &head))
-            }
-            Content::Lines(format) => format.write(out, &head),
-            Content::Origin(mesh) => match &targets[mesh] {
-                Target::File(path) => write_origin(out, path, &Head { origin: Some(local), ..head }),
-                Target::Stdout => Ok(()),
-            },
-            Content::Raster(format) => match &raster {
-                Some((layout, values)) => format.write(out, layout, values, &reference),
-                None => Ok(()),
-            },
-            Content::FinishedRaster(format) => match &finished_raster {
-                Some((layout, values)) => format.write(out, layout, values, &reference),
-                None => Ok(()),
-            },
-            Content::Stakes => write_stakes(out, &stakes),
-            Content::Stations => write_station_table(out, report),
-            Content::Plot(drawing) => Ok(out.write_all(plot::file(&scene, drawing, &job.sections).as_bytes())?),
-            Content::Report(format) => {
-                let own = desk::run_at(&report.run, &targets[index], is_json(index));
-                let own = own.map(|run| Report { run: Some(run), ..report.clone() });
-                format.write(out, own.as_ref().unwrap_or(report), &scene, &job.sections)
-            }
-        })
-    };
     // What a report in JSON tells of the others is known when they are written; hashes of meshes are taken meanwhile.
-    let (before, after) = in_order(&targets, &contents);
+    let (before, after) = made.in_order();
     let mut hashes = (None, None);
     rayon::in_place_scope(|scope| {
         if record {
@@ -208,18 +173,18 @@ pub fn build_at(desk: Desk<'_>, job: &BuildJob, observer: &dyn Observer) -> Resu
         }
         before.into_iter().try_for_each(|index| {
             stamp(&mut report, &watch);
-            put(&mut outputs, index, &report).map(drop)
+            made.put(&mut outputs, index, &report).map(drop)
         })
     })?;
     if record {
         report.run = job.run.clone();
         let mut result = ResultFigures::of(hashes.0, hashes.1, &report).map_err(desk::no_record)?;
-        result.outputs = desk::files(&outputs, &targets, is_json);
+        result.outputs = desk::files(&outputs, &targets, |index| made.is_json(index));
         report.result = Some(result);
     }
     for index in after {
         stamp(&mut report, &watch);
-        put(&mut outputs, index, &report)?;
+        made.put(&mut outputs, index, &report)?;
     }
     desk.commit(outputs)?;
     stamp(&mut report, &watch);
@@ -323,50 +288,6 @@ fn alone(job: &BuildJob, line: &Line, source: &Source, watch: &Stopwatch<'_>) ->
 
 fn surface_error(source: &Source, cause: surface::SurfaceError) -> Error {
     Error::Surface { label: source.label.clone(), cause }
-}
-
-/// All outputs of a job.
-pub(super) fn targets(job: &BuildJob) -> Vec<Target> {
-    wanted(job).into_iter().map(|(target, _)| target).collect()
-}
-
-fn wanted(job: &BuildJob) -> Vec<(Target, Content)> {
-    let meshes = job.meshes.iter().map(|(target, format)| (target.clone(), Content::Mesh(*format)));
-    let finished = job.finished.iter().map(|(target, format)| (target.clone(), Content::Finished(*format)));
-    let rasters = job.rasters.design.iter().map(|(target, format)| (target.clone(), Content::Raster(*format)));
-    let finished_rasters = job.rasters.finished.iter();
-    let finished_rasters = finished_rasters.map(|(target, format)| (target.clone(), Content::FinishedRaster(*format)));
-    let lines = job.lines.iter().map(|(target, format)| (target.clone(), Content::Lines(*format)));
-    let reports = job.reports.iter().map(|(target, format)| (target.clone(), Content::Report(*format)));
-    let tables = job.station_tables.iter().map(|target| (target.clone(), Content::Stations));
-    let stakes = job.stakes.iter().map(|target| (target.clone(), Content::Stakes));
-    let plots = job.plots.iter().map(|(target, drawing)| (target.clone(), Content::Plot(*drawing)));
-    let mut all: Vec<(Target, Content)> = meshes.chain(finished).collect();
-    // Beside every file that does not hold world coordinates stands one that tells its origin.
-    for mesh in 0..all.len() {
-        if let (Target::File(path), Content::Mesh(format) | Content::Finished(format)) = &all[mesh]
-            && is_local(job, *format)
-            && !all[mesh].0.is_stream()
-        {
-            all.push((Target::File(origin::sidecar(path)), Content::Origin(mesh)));
-        }
-    }
-    all.extend(rasters.chain(finished_rasters).chain(lines).chain(stakes).chain(tables).chain(plots).chain(reports));
-    all
-}
-
-/// The order in which outputs are written, up to the first report in JSON and from there. Files first, because they can still be taken
-/// back; standard output last; of each kind reports last, because they tell how long the rest took, those in JSON behind the others.
-fn in_order(targets: &[Target], contents: &[Content]) -> (Vec<usize>, Vec<usize>) {
-    let is_json = |i: usize| matches!(contents[i], Content::Report(ReportFormat::Json));
-    let mut order: Vec<usize> = (0..targets.len()).collect();
-    order.sort_by_key(|&i| {
-        let stdout = targets[i] == Target::Stdout;
-        (stdout, targets[i].is_stream(), matches!(contents[i], Content::Report(_)), is_json(i))
-    });
-    let first = order.iter().position(|&i| is_json(i)).unwrap_or(order.len());
-    let after = order.split_off(first);
-    (order, after)
 }
 
 /// Writes the times into the report.

@@ -1,7 +1,7 @@
 //! A mesh from anywhere, looked at as it is.
 
 use super::watch::{CHECKING, Observer, READING, Stopwatch, WRITING};
-use super::{Error, figures, room};
+use super::{Error, desk, figures, room};
 use crate::mesh::quality::{self, Bound, Kind, Mesh, Options};
 use crate::model::{Defect, Defects, Note, Part, Slope};
 use crate::read::terrain::{RawFaces, RawMesh, read_mesh};
@@ -10,7 +10,6 @@ use crate::report::{CheckReport, Checked, ReportFormat, Warning};
 use crate::surface::Watch as _;
 use crate::terrain;
 use crate::write::{Outputs, Target};
-use std::collections::BTreeMap;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -62,7 +61,7 @@ pub struct Looked {
 pub fn check(job: &CheckJob, observer: &dyn Observer) -> Result<Looked, Error> {
     let watch = Stopwatch::new(observer);
     let targets: Vec<Target> = job.reports.iter().map(|(target, _)| target.clone()).collect();
-    let mut outputs = Outputs::open(&targets, std::slice::from_ref(&job.path))?;
+    let outputs = Outputs::open(&targets, std::slice::from_ref(&job.path))?;
     watch.stage_of(READING);
     let raw = read_mesh(&job.path, job.format, &job.pick, &watch.memory())?;
     let corners = match &raw.faces {
@@ -78,14 +77,8 @@ pub fn check(job: &CheckJob, observer: &dyn Observer) -> Result<Looked, Error> {
     let mut report = look(raw, &options, &watch);
     report.units = unit.into();
     watch.stage_of(WRITING);
-    // Standard output last: files can still be taken back.
-    let mut order: Vec<usize> = (0..targets.len()).collect();
-    order.sort_by_key(|&i| (targets[i] == Target::Stdout, targets[i].is_stream()));
-    for i in order {
-        outputs.write(i, |out| job.reports[i].1.write_check(out, &report))?;
-    }
-    outputs.commit()?;
-    Ok(Looked { report, written: targets.into_iter().filter(|target| !target.is_stream()).collect() })
+    let written = desk::write_reports(outputs, &job.reports, |format, out| format.write_check(out, &report))?;
+    Ok(Looked { report, written })
 }
 
 fn look(raw: RawMesh, options: &Options, watch: &Stopwatch<'_>) -> CheckReport {
@@ -107,7 +100,7 @@ fn look(raw: RawMesh, options: &Options, watch: &Stopwatch<'_>) -> CheckReport {
     };
     let mesh = Mesh { vertices: &raw.vertices, triangles: &triangles, faces: &faces, groups: &groups, names: &raw.names };
     let quality = quality::examine(&mesh, options);
-    let warnings = watch.notes().iter().map(|note| Warning::of(note, BTreeMap::new())).collect();
+    let warnings = Warning::all(&watch.notes());
     let size = (raw.vertices.len(), count, triangles.len());
     let checked = Checked { vertices: size.0, faces: size.1, triangles: size.2, names: &raw.names, options };
     CheckReport { units, ..CheckReport::new(input, &checked, &quality, warnings) }

@@ -191,8 +191,8 @@ fn width(ring: &Chain) -> f64 {
     twice_area.abs() / length
 }
 
-/// Points of the outermost level curve round an open end, half a turn. A chord over the angle `w` of a cone lies `h w²/8` off it in
-/// height, `h` below its top; a third of the tolerance is spent on that.
+/// Points of the outermost level curve round an open end, half a turn. A chord over the angle `w` of a cone lies `h w²/8` off it
+/// in height, `h` below its top; a third of the tolerance is spent on that.
 fn arc_points(deepest: f64, tolerance: f64) -> f64 {
     std::f64::consts::PI / (8.0 * tolerance / (3.0 * deepest)).sqrt()
 }

@@ -1,10 +1,12 @@
 //! Where a job finds its inputs and leaves its outputs: files as a rule, memory for those who run jobs to learn what comes out.
 
+use super::Error;
 use crate::read::terrain::{RawTerrain, TerrainOptions, parse_named_terrain, read_terrain};
 use crate::read::{self, InputFormat, RawInput, RawPoints, ReadError, ReadOptions};
 use crate::report::{OutputFile, ReportFormat, RunRecord};
 use crate::write::{EncodeError, Outputs, Target, WriteError};
 use std::collections::BTreeMap;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -101,6 +103,25 @@ impl Desk<'_> {
     pub(super) fn records(&self, reports: &[(Target, ReportFormat)]) -> bool {
         !matches!(self, Self::Disk) || reports.iter().any(|(_, format)| *format == ReportFormat::Json)
     }
+}
+
+/// Writes the same report in all its formats, and makes the files appear. What goes down streams is written last, standard output
+/// at the very end: files can still be taken back. Returns the files, in the order of `reports`.
+///
+/// # Errors
+/// As [`Outputs::write`] and [`Outputs::commit`], as an error of the job.
+pub fn write_reports(
+    mut outputs: Outputs,
+    reports: &[(Target, ReportFormat)],
+    encode: impl Fn(ReportFormat, &mut dyn Write) -> Result<(), EncodeError>,
+) -> Result<Vec<Target>, Error> {
+    let mut order: Vec<usize> = (0..reports.len()).collect();
+    order.sort_by_key(|&index| (reports[index].0 == Target::Stdout, reports[index].0.is_stream()));
+    for index in order {
+        outputs.write(index, |out| encode(reports[index].1, out))?;
+    }
+    outputs.commit()?;
+    Ok(reports.iter().map(|(target, _)| target).filter(|target| !target.is_stream()).cloned().collect())
 }
 
 /// The record of a run as a report at a target tells it; nothing for other outputs.

@@ -1,7 +1,8 @@
 //! What differs between two reports, or between two surfaces.
 
 use super::watch::{Named, Observer, Stopwatch, WRITING};
-use super::{Error, read_ground, room};
+use super::{Error, desk, figures, read_ground, room};
+use crate::model::message::placed;
 use crate::overlay::{self, AREA_ROUNDING, Between, Depth, OverlayError, SAME_HEIGHT};
 use crate::read::terrain::TerrainOptions;
 use crate::read::{Document, InputFormat, Source, read_document};
@@ -11,7 +12,6 @@ use crate::report::{Input, ReportFormat, Tool, Warning};
 use crate::surface::Watch;
 use crate::write::{Outputs, Target};
 use serde_json::Value;
-use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -108,12 +108,12 @@ impl std::error::Error for Beyond {}
 /// Compares two files. That they differ is no error: see [`Beyond::of`].
 ///
 /// # Errors
-/// [`Error`] if a file cannot be read, if the two are not of one kind or share no area, if a bound is on figures they do not have,
-/// or if a report cannot be written.
+/// [`Error`] if a file cannot be read, if the two are not of one kind or share no area, if a bound is on figures they do not
+/// have, or if a report cannot be written.
 pub fn diff(job: &DiffJob, observer: &dyn Observer) -> Result<Differed, Error> {
     let watch = Stopwatch::new(observer);
     let targets: Vec<Target> = job.reports.iter().map(|(target, _)| target.clone()).collect();
-    let mut outputs = Outputs::open(&targets, &[&job.first, &job.second])?;
+    let outputs = Outputs::open(&targets, &[&job.first, &job.second])?;
     let documents = (read_document(&job.first)?, read_document(&job.second)?);
     let mut report = match documents {
         (Some(first), Some(second)) => reports(&first, &second, &job.bounds, &watch)?,
@@ -129,14 +129,12 @@ pub fn diff(job: &DiffJob, observer: &dyn Observer) -> Result<Differed, Error> {
             return Err(DiffError(message).into());
         }
     };
-    report.warnings = watch.notes().iter().map(|note| Warning::of(note, BTreeMap::new())).collect();
+    report.warnings = Warning::all(&watch.notes());
     report.passed = report.bounds.iter().all(|row| row.passed);
     watch.stage_of(WRITING);
-    for (index, (_, format)) in job.reports.iter().enumerate() {
-        outputs.write(index, |out| format.write_plain(out, &report, || render_diff(&report)))?;
-    }
-    outputs.commit()?;
-    Ok(Differed { report, written: targets.into_iter().filter(|target| !target.is_stream()).collect() })
+    let text = || render_diff(&report);
+    let written = desk::write_reports(outputs, &job.reports, |format, out| format.write_plain(out, &report, text))?;
+    Ok(Differed { report, written })
 }
 
 fn empty(inputs: Vec<Input>, unit: String) -> DiffReport {
@@ -249,15 +247,8 @@ fn surfaces(job: &DiffJob, watch: &Stopwatch<'_>) -> Result<DiffReport, Error> {
     room::for_overlay(first.0.triangles.len() + second.0.triangles.len(), &second.1.label, &watch.memory())?;
     watch.stage("compare");
     let found = overlay::between(&second.0, &first.0, None).map_err(|cause| apart(&cause, &first.1, &second.1))?;
-    let input = |role: &str, source: &Source| Input {
-        role: role.to_owned(),
-        path: source.label.clone(),
-        bytes: source.bytes,
-        sha256: source.sha256.clone(),
-        format: source.format.name().to_owned(),
-        crs: source.crs.clone(),
-    };
-    let mut report = empty(vec![input("first", &first.1), input("second", &second.1)], unit.label().to_owned());
+    let inputs = vec![figures::input("first", &first.1), figures::input("second", &second.1)];
+    let mut report = empty(inputs, unit.label().to_owned());
     let surfaces = change(&found);
     let beside = surfaces.first_only + surfaces.second_only;
     let whole = surfaces.common_area + surfaces.first_only.max(surfaces.second_only);
@@ -309,11 +300,9 @@ fn apart(cause: &OverlayError, first: &Source, second: &Source) -> DiffError {
         ("= existing:", "= first:"),
     ];
     let message = named.iter().fold(message, |message, (from, to)| message.replace(from, to));
-    let (what, rest) =
-        message.split_once('\n').map_or((message.as_str(), String::new()), |(what, rest)| (what, format!("\n{rest}")));
     let help = match cause {
         OverlayError::Double { .. } => "keep one surface: delete the faces that lie below or above others",
         _ => "give two surfaces of the same place, in the same coordinates",
     };
-    DiffError(format!("{what}\n  --> {}\n  --> {}{rest}\n   = help: {help}", first.label, second.label))
+    DiffError(format!("{}\n   = help: {help}", placed(&message, [&first.label, &second.label])))
 }

@@ -5,6 +5,7 @@ use super::diff::DiffError;
 use super::volume::ComparisonError;
 use crate::formation::FormationError;
 use crate::ground::{GroundError, TooManyStations};
+use crate::model::message::placed;
 use crate::model::{Defects, Slope, TooLarge};
 use crate::read::ReadError;
 use crate::report::BuriedStretch;
@@ -28,7 +29,7 @@ pub enum Error {
     #[error(transparent)]
     Design(#[from] DesignError),
     /// The engine refused.
-    #[error("{}", placed(.label, .cause))]
+    #[error("{}", placed(&.cause.to_string(), [.label]))]
     Surface {
         /// The input.
         label: String,
@@ -68,23 +69,12 @@ pub enum Error {
     Write(#[from] WriteError),
 }
 
-/// The engine's message with the inputs, which it does not know, below its first line.
-fn placed(label: &str, cause: &SurfaceError) -> String {
-    located(label, &cause.to_string())
-}
-
+/// The message of `ground` with the inputs, which it does not know.
 fn placed_on(label: &str, ground: &str, cause: &GroundError) -> String {
     if let GroundError::Terrain(defects) = cause {
         return defects.to_string();
     }
-    located(&format!("{label} on {ground}"), &cause.to_string())
-}
-
-fn located(label: &str, message: &str) -> String {
-    match message.split_once('\n') {
-        Some((what, rest)) => format!("{what}\n  --> {label}\n{rest}"),
-        None => format!("{message}\n  --> {label}"),
-    }
+    placed(&cause.to_string(), [format!("{label} on {ground}")])
 }
 
 /// A station that is on none of the lines.

@@ -24,7 +24,7 @@ pub(super) fn report(line: &Line, source: &Source, design: &Design, surface: &Su
     levels.sort_by(f64::total_cmp);
     let v = &surface.volumes;
     let buried = buried(line, surface);
-    let mut warnings = warnings(notes);
+    let mut warnings = Warning::all(notes);
     if let Some(warning) = warnings.iter_mut().find(|warning| warning.code == BURIED) {
         warning.details = buried_details(&buried);
     }
@@ -69,15 +69,6 @@ pub(super) fn report(line: &Line, source: &Source, design: &Design, surface: &Su
         result: None,
         timing: Timing::default(),
     }
-}
-
-fn warnings(notes: &[Note]) -> Vec<Warning> {
-    notes.iter().map(warning).collect()
-}
-
-/// A note as the report tells it.
-pub(super) fn warning(note: &Note) -> Warning {
-    Warning::of(note, BTreeMap::new())
 }
 
 /// Code of the note about buried stretches.

@@ -10,7 +10,6 @@ use crate::report::info::{BoxFigures, FileFigures, INFO_SCHEMA, InfoReport, Line
 use crate::report::{Tool, Warning};
 use crate::{terrain, validate};
 use serde_json::Value;
-use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Looks at a file: a line, ground, or a report of this program.
@@ -155,16 +154,11 @@ fn not_read(purpose: &'static str, error: ReadError, unread: &mut Vec<ReadError>
     row
 }
 
-fn warnings(notes: &[Note]) -> Vec<Warning> {
-    let of = |note: &Note| Warning::of(note, BTreeMap::new());
-    notes.iter().map(of).collect()
-}
-
 fn row(purpose: &'static str, defects: &[Defects], notes: &[Note]) -> UseRow {
     let defects: Vec<String> = defects.iter().filter(|defects| !defects.is_empty()).map(ToString::to_string).collect();
     // Each begins a message of its own, as on standard error.
     let defects: Vec<String> = defects.iter().flat_map(|text| text.split("\nerror: ").map(str::to_owned)).collect();
-    UseRow { purpose, name: None, sound: defects.is_empty(), readable: true, defects, notes: warnings(notes) }
+    UseRow { purpose, name: None, sound: defects.is_empty(), readable: true, defects, notes: Warning::all(notes) }
 }
 
 fn as_line(raw: &RawInput) -> UseRow {

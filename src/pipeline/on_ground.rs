@@ -5,8 +5,8 @@ use super::watch::Stopwatch;
 use super::{Desk, Error, Wishes, check_steepness, figures, ground, room};
 use crate::ground::{Options, Site};
 use crate::model::{Design, Extent, LengthUnit, Line, Sheet, Side, Terrain};
+use crate::read::Source;
 use crate::read::terrain::TerrainOptions;
-use crate::read::{ReadError, Source};
 use crate::report::TerrainFigures;
 use crate::surface::Watch as _;
 use crate::terrain;
@@ -36,9 +36,7 @@ pub(super) fn build(
     let (terrain, ground_source) =
         ground::read_ground_at(desk, &input.path, &input.options, Some(unit), watch).map_err(|error| match error {
             // The columns of the ground have an option of their own.
-            Error::Read(ReadError::Content { what, at, figures, help }) => {
-                ReadError::Content { what, at, figures, help: help.replace("--csv-order", "--terrain-order") }.into()
-            }
+            Error::Read(error) => error.with_option("--csv-order", "--terrain-order").into(),
             other => other,
         })?;
     watch.holds(room::of_ground(&terrain));

@@ -5,6 +5,7 @@ use crate::mesh::raster;
 use crate::model::{Defect, Defects, LengthUnit, Memory, Tin};
 use crate::read::{CoordinateKind, Source};
 use crate::write::{Anchor, GridLayout, RasterFormat, Reference, Target};
+use glam::DVec2;
 
 /// Rasters to be written.
 #[derive(Clone, Debug, Default)]
@@ -31,24 +32,8 @@ pub(super) fn sample(
     label: &str,
     memory: &Memory,
 ) -> Result<Raster, Error> {
-    let refuse = |code: &'static str, what: &str, figures: String, help: &str| {
-        let mut defects = Defects::default();
-        defects.push(code, || Defect {
-            code,
-            what: what.to_owned(),
-            at: label.to_owned(),
-            figures: Some(figures),
-            help: help.to_owned(),
-        });
-        Err(defects.into())
-    };
-    let grid = match raster::cover(tin, cell, MOST_NODES) {
-        Ok(grid) => grid,
-        Err(count) => {
-            let figures = format!("{} by {} at a cell of {cell}; at most {MOST_NODES:e} in all", count.x, count.y);
-            return refuse("too-many-nodes", "the raster would have too many nodes", figures, "give a larger `--cell`");
-        }
-    };
+    let grid = raster::cover(tin, cell, MOST_NODES);
+    let grid = grid.map_err(|count| too_many_nodes(count, cell, label, "give a larger `--cell`"))?;
     if let Some(grid) = &grid {
         let formats: Vec<RasterFormat> = wanted.iter().map(|(_, format)| *format).collect();
         room::for_raster(grid.ncols as u64 * grid.nrows as u64, &formats, label, memory)?;
@@ -56,11 +41,29 @@ pub(super) fn sample(
     let values = grid.as_ref().map_or_else(Vec::new, |grid| raster::heights(tin, grid));
     let Some(grid) = grid.filter(|_| values.iter().any(|value| !value.is_nan())) else {
         let figures = format!("no centre of a cell of {cell} lies on the surface");
-        return refuse("raster-empty", "the raster would be empty", figures, "give a smaller `--cell`");
+        return Err(refused("raster-empty", "the raster would be empty", label, figures, "give a smaller `--cell`").into());
     };
     let (x, y) = (grid.xll - 0.5 * cell, grid.yll - 0.5 * cell);
     let layout = GridLayout { columns: grid.ncols, rows: grid.nrows, x, y, anchor: Anchor::Corner, cell };
     Ok((layout, values))
+}
+
+/// A grid of more than [`MOST_NODES`]; `count`: its columns and rows.
+pub(super) fn too_many_nodes(count: DVec2, cell: f64, label: &str, help: &str) -> Defects {
+    let figures = format!("{} by {} at a cell of {cell}; at most {MOST_NODES:e} in all", count.x, count.y);
+    refused("too-many-nodes", "the raster would have too many nodes", label, figures, help)
+}
+
+fn refused(code: &'static str, what: &str, label: &str, figures: String, help: &str) -> Defects {
+    let mut defects = Defects::default();
+    defects.push(code, || Defect {
+        code,
+        what: what.to_owned(),
+        at: label.to_owned(),
+        figures: Some(figures),
+        help: help.to_owned(),
+    });
+    defects
 }
 
 /// What a raster in `unit` may say of its coordinates: the system of the line, else of the ground, where coordinates still are

@@ -3,7 +3,7 @@
 use super::watch::{Observer, Stopwatch, WRITING};
 use super::{Desk, Error, Given, LineInput, check_steepness, rasters, read_line, room};
 use crate::model::{Defect, Defects, Line, Sheet, Slope};
-use crate::read::{RawPoints, ReadError, ReadOptions};
+use crate::read::{RawPoints, ReadOptions};
 use crate::sheet::{Grid, Heights};
 use crate::surface::Watch as _;
 use crate::validate::INPUT_LIMIT;
@@ -20,7 +20,8 @@ pub const MARGIN: f64 = 0.1;
 /// The least margin, in cells.
 pub const LEAST_MARGIN_CELLS: f64 = 5.0;
 
-/// A last column or row that misses the edge of the box by this share of a cell counts as on it: what is left of decimal fractions.
+/// A last column or row that misses the edge of the box by this share of a cell counts as on it: what is left of decimal
+/// fractions.
 const ON_EDGE: f64 = 1e-6;
 
 /// Heights to be found, and where to put them.
@@ -101,7 +102,7 @@ pub fn sample_at(desk: Desk<'_>, job: &SampleJob, observer: &dyn Observer) -> Re
     let heights = match &job.at {
         Where::Points { path, options } => {
             let options = ReadOptions { memory: watch.memory(), ..options.clone() };
-            let points = desk.points(path, &options).map_err(for_points)?;
+            let points = desk.points(path, &options).map_err(|error| error.with_option("--csv-order", "--at-order"))?;
             room::for_points(points.points.len(), points.source.bytes, &points.source.label, &watch.memory())?;
             points.notes.iter().for_each(|note| watch.note(note));
             check_points(&points)?;
@@ -134,16 +135,6 @@ pub fn sample_at(desk: Desk<'_>, job: &SampleJob, observer: &dyn Observer) -> Re
     Ok(Sampled { heights })
 }
 
-/// The reader's advice in the words of the points' own option.
-fn for_points(error: ReadError) -> ReadError {
-    match error {
-        ReadError::Content { what, at, figures, help } => {
-            ReadError::Content { what, at, figures, help: help.replace("--csv-order", "--at-order") }
-        }
-        other => other,
-    }
-}
-
 /// Points must be where coordinates of lines may be.
 fn check_points(points: &RawPoints) -> Result<(), Defects> {
     let mut defects = Defects::default();
@@ -171,11 +162,9 @@ fn check_points(points: &RawPoints) -> Result<(), Defects> {
 pub fn lattice(line: &Line, wanted: &Lattice, label: &str) -> Result<Grid, Defects> {
     let cell = wanted.cell;
     let area = wanted.area.unwrap_or_else(|| {
-        let vertices = || line.chains.iter().flat_map(|chain| &chain.vertices).map(|v| v.truncate());
-        let min = vertices().fold(DVec2::INFINITY, DVec2::min);
-        let max = vertices().fold(DVec2::NEG_INFINITY, DVec2::max);
-        let margin = (MARGIN * (max - min).max_element()).max(LEAST_MARGIN_CELLS * cell);
-        Area { min: ((min - margin) / cell).floor() * cell, max: ((max + margin) / cell).ceil() * cell }
+        let bounds = line.plan_box();
+        let margin = (MARGIN * bounds.size().max_element()).max(LEAST_MARGIN_CELLS * cell);
+        Area { min: ((bounds.lo - margin) / cell).floor() * cell, max: ((bounds.hi + margin) / cell).ceil() * cell }
     });
     let size = area.max - area.min;
     let count = (size / cell + ON_EDGE).floor() + 1.0;
@@ -184,15 +173,7 @@ pub fn lattice(line: &Line, wanted: &Lattice, label: &str) -> Result<Grid, Defec
     if nodes <= MOST_NODES {
         return Ok(Grid { xll: area.min.x, yll: area.min.y, cell, ncols: count.x as usize, nrows: count.y as usize });
     }
-    let mut defects = Defects::default();
-    defects.push("too-many-nodes", || Defect {
-        code: "too-many-nodes",
-        what: "the raster would have too many nodes".to_owned(),
-        at: label.to_owned(),
-        figures: Some(format!("{} by {} at a cell of {cell}; at most {MOST_NODES:e} in all", count.x, count.y)),
-        help: "give a larger `--cell`, or a smaller `--box`".to_owned(),
-    });
-    Err(defects)
+    Err(rasters::too_many_nodes(count, cell, label, "give a larger `--cell`, or a smaller `--box`"))
 }
 
 #[cfg(test)]

@@ -85,7 +85,8 @@ const OTHERWISE: f64 = 1e-9;
 /// Runs the job of a report once more, in memory, and compares. Nothing is written.
 ///
 /// # Errors
-/// [`Error`] when an input cannot be read, or the run is interrupted. That things do not agree is no error: see [`NotVerified::of`].
+/// [`Error`] when an input cannot be read, or the run is interrupted. That things do not agree is no error: see
+/// [`NotVerified::of`].
 pub fn verify(job: &VerifyJob, observer: &dyn Observer) -> Result<Verified, Error> {
     let report = &job.document.value;
     let text = |path: &str| report.pointer(path).and_then(Value::as_str).unwrap_or("").to_owned();

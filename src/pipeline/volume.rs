@@ -3,12 +3,14 @@
 use super::ground::read_ground_at;
 use super::watch::{CHECKING, Named, Observer, Stopwatch, WRITING};
 use super::{Desk, Error, desk, figures, room, units};
-use crate::kernel::sum::Sum;
+use crate::kernel::range::range;
 use crate::mesh::inside::inside;
+use crate::mesh::volume::MeshAreas;
+use crate::model::message::placed;
 use crate::model::{Chain, Defect, Defects, LengthUnit, Note, Role, Terrain};
 use crate::overlay::{self, Between, OverlayError, Surface};
 use crate::read::terrain::TerrainOptions;
-use crate::read::{ColumnOrder, Pick, ReadError, ReadOptions, Source};
+use crate::read::{ColumnOrder, Pick, ReadOptions, Source};
 use crate::report::between::{BetweenDepths, BetweenReference, BetweenReport, BetweenTiming, BetweenVolumes, MeshFigures};
 use crate::report::{
     Balance, Detail, Input, METHOD, METHOD_TEXT, ReportFormat, ResultFigures, RunRecord, SCHEMA, SIGN_RULE, Tool, Warning,
@@ -50,10 +52,7 @@ pub struct VolumeJob {
 impl VolumeJob {
     /// The files it reads.
     pub(super) fn inputs(&self) -> Vec<PathBuf> {
-        let (design, existing) = match &self.against {
-            Against::Existing { design, existing } => (Some(design), existing),
-            Against::Elevation { existing, .. } => (None, existing),
-        };
+        let (design, existing) = self.against.paths();
         design.into_iter().chain([existing]).chain(&self.within).cloned().collect()
     }
 }
@@ -77,6 +76,16 @@ pub enum Against {
     },
 }
 
+impl Against {
+    /// The design, if there is one, and the existing surface.
+    fn paths(&self) -> (Option<&PathBuf>, &PathBuf) {
+        match self {
+            Self::Existing { design, existing } => (Some(design), existing),
+            Self::Elevation { existing, .. } => (None, existing),
+        }
+    }
+}
+
 /// What came out.
 #[derive(Clone, Debug)]
 pub struct Compared {
@@ -97,22 +106,13 @@ pub struct ComparisonError {
 
 impl fmt::Display for ComparisonError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let message = self.cause.to_string();
-        let (what, rest) = message.split_once('\n').map_or((message.as_str(), None), |(what, rest)| (what, Some(rest)));
-        f.write_str(what)?;
-        for label in &self.labels {
-            write!(f, "\n  --> {label}")?;
-        }
-        if let Some(rest) = rest {
-            write!(f, "\n{rest}")?;
-        }
         let help = match &self.cause {
             OverlayError::Empty(_) => "give a surface with faces, or with points that are not all on one line",
             OverlayError::Apart { design, existing } => apart(design, existing),
             OverlayError::Outside { .. } => "check the coordinates of the rings: they must be those of the meshes",
             OverlayError::Double { .. } => "keep one surface: delete the faces that lie below or above others",
         };
-        write!(f, "\n   = help: {help}")
+        write!(f, "{}\n   = help: {help}", placed(&self.cause.to_string(), &self.labels))
     }
 }
 
@@ -146,34 +146,10 @@ pub fn volume(job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Erro
 pub fn volume_at(desk: Desk<'_>, job: &VolumeJob, observer: &dyn Observer) -> Result<Compared, Error> {
     let watch = Stopwatch::new(observer);
     let targets: Vec<Target> = job.reports.iter().map(|(target, _)| target.clone()).collect();
-    let (design, existing) = match &job.against {
-        Against::Existing { design, existing } => (Some(design), existing),
-        Against::Elevation { existing, .. } => (None, existing),
-    };
-    let inputs = job.inputs();
     let record = desk.records(&job.reports);
-    let mut outputs = desk.open(&targets, &inputs, record)?;
+    let mut outputs = desk.open(&targets, &job.inputs(), record)?;
 
-    let [of_design, of_existing] = &job.picks;
-    let read = |path: &Path, pick: &Pick, unit, surface: Surface| {
-        let options =
-            TerrainOptions { csv_order: job.csv_order.clone(), pick: pick.clone(), unit: job.unit, ..TerrainOptions::default() };
-        read_ground_at(desk, path, &options, unit, &Named { watch: &watch, name: surface.name() })
-    };
-    let design = design.map(|path| read(path, of_design, job.unit, Surface::Design)).transpose()?;
-    watch.holds(design.as_ref().map_or(0, |(ground, _)| room::of_ground(ground)));
-    let declared = job.unit.or(design.as_ref().and_then(|(_, source)| source.unit));
-    let existing = read(existing, of_existing, declared, Surface::Existing).map_err(|error| match error {
-        // With a design beside it, the existing surface has an option of its own.
-        Error::Read(ReadError::Content { what, at, figures, help }) if design.is_some() => {
-            ReadError::Content { what, at, figures, help: help.replace("--surface", "--existing-surface") }.into()
-        }
-        other => other,
-    })?;
-    let unit = declared.or(existing.1.unit).unwrap_or_default();
-    let triangles = existing.0.triangles.len() + design.as_ref().map_or(0, |(ground, _)| ground.triangles.len());
-    watch.holds(room::of_ground(&existing.0) + design.as_ref().map_or(0, |(ground, _)| room::of_ground(ground)));
-    room::for_overlay(triangles, &existing.1.label, &watch.memory())?;
+    let Surfaces { design, existing, unit } = read(desk, job, &watch)?;
     let area = job.within.as_ref().map(|path| rings(desk, path, unit, &watch)).transpose()?;
 
     watch.stage_of(VOLUMES);
@@ -235,6 +211,36 @@ pub fn volume_at(desk: Desk<'_>, job: &VolumeJob, observer: &dyn Observer) -> Re
     Ok(Compared { report, written: targets.into_iter().filter(|target| !target.is_stream()).collect() })
 }
 
+/// The surfaces of a job as read, in one unit.
+struct Surfaces {
+    design: Option<(Terrain, Source)>,
+    existing: (Terrain, Source),
+    unit: LengthUnit,
+}
+
+fn read(desk: Desk<'_>, job: &VolumeJob, watch: &Stopwatch<'_>) -> Result<Surfaces, Error> {
+    let (design, existing) = job.against.paths();
+    let [of_design, of_existing] = &job.picks;
+    let read = |path: &Path, pick: &Pick, unit, surface: Surface| {
+        let options =
+            TerrainOptions { csv_order: job.csv_order.clone(), pick: pick.clone(), unit: job.unit, ..TerrainOptions::default() };
+        read_ground_at(desk, path, &options, unit, &Named { watch, name: surface.name() })
+    };
+    let design = design.map(|path| read(path, of_design, job.unit, Surface::Design)).transpose()?;
+    watch.holds(design.as_ref().map_or(0, |(ground, _)| room::of_ground(ground)));
+    let declared = job.unit.or(design.as_ref().and_then(|(_, source)| source.unit));
+    let existing = read(existing, of_existing, declared, Surface::Existing).map_err(|error| match error {
+        // With a design beside it, the existing surface has an option of its own.
+        Error::Read(error) if design.is_some() => error.with_option("--surface", "--existing-surface").into(),
+        other => other,
+    })?;
+    let unit = declared.or(existing.1.unit).unwrap_or_default();
+    let triangles = existing.0.triangles.len() + design.as_ref().map_or(0, |(ground, _)| ground.triangles.len());
+    watch.holds(room::of_ground(&existing.0) + design.as_ref().map_or(0, |(ground, _)| room::of_ground(ground)));
+    room::for_overlay(triangles, &existing.1.label, &watch.memory())?;
+    Ok(Surfaces { design, existing, unit })
+}
+
 fn volumes(found: &Between, against: &Against, existing: &Source) -> BetweenVolumes {
     let reference = match against {
         Against::Existing { .. } => BetweenReference::Terrain { path: existing.label.clone() },
@@ -260,33 +266,22 @@ const PART: usize = 1 << 15;
 /// Size, heights and areas of a mesh as it takes part.
 fn mesh_figures(role: &'static str, mesh: &Terrain) -> MeshFigures {
     let of_some = |some: &[[u32; 3]]| {
-        let (mut plan, mut surface) = (Sum::default(), Sum::default());
-        for [a, b, c] in some.iter().map(|t| t.map(|v| mesh.vertices[v as usize])) {
-            let normal = (b - a).cross(c - a);
-            plan.add(0.5 * normal.z.abs());
-            surface.add(0.5 * normal.length());
-        }
-        let heights = some.as_flattened().iter().map(|&v| mesh.vertices[v as usize].z);
-        let (z_min, z_max) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), z| (lo.min(z), hi.max(z)));
-        (plan, surface, z_min, z_max)
+        let corners = || some.iter().map(|t| t.map(|v| mesh.vertices[v as usize]));
+        (MeshAreas::of(corners()), range(corners().flatten().map(|p| p.z)))
     };
     // In parts of fixed size, so that the sums are the same on any number of threads.
-    let parts: Vec<(Sum, Sum, f64, f64)> = mesh.triangles.par_chunks(PART).map(of_some).collect();
-    let (mut plan, mut surface) = (Sum::default(), Sum::default());
-    let (mut z_min, mut z_max) = (f64::INFINITY, f64::NEG_INFINITY);
-    for part in parts {
-        plan.join(part.0);
-        surface.join(part.1);
-        (z_min, z_max) = (z_min.min(part.2), z_max.max(part.3));
-    }
+    let parts: Vec<(MeshAreas, (f64, f64))> = mesh.triangles.par_chunks(PART).map(of_some).collect();
+    let (z_min, z_max) = range(parts.iter().flat_map(|(_, (low, high))| [*low, *high]));
+    let mut areas = MeshAreas::default();
+    parts.into_iter().for_each(|(part, _)| areas.join(part));
     MeshFigures {
         role,
         vertices: mesh.vertices.len(),
         triangles: mesh.triangles.len(),
         z_min,
         z_max,
-        plan_area: plan.value(),
-        surface_area: surface.value(),
+        plan_area: areas.plan(),
+        surface_area: areas.surface(),
     }
 }
 

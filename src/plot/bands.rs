@@ -5,7 +5,7 @@
 //! step at most.
 
 use super::lines::Stroke;
-use super::scale::range;
+use crate::kernel::range::range;
 use glam::DVec2;
 
 /// A corner on the lattice.

@@ -1,12 +1,12 @@
 //! Contours of the existing ground.
 
 use super::lines::Stroke;
-use super::scale::range;
 use crate::kernel::plan_box::PlanBox;
+use crate::kernel::range::range;
 use glam::{DVec2, DVec3};
 
-/// Lines of equal height on the triangles that meet a plan box, for ascending levels; of each level its lines. A height at a level
-/// counts as above it, so that no contour branches. The higher ground lies on the left.
+/// Lines of equal height on the triangles that meet a plan box, for ascending levels; of each level its lines. A height at a
+/// level counts as above it, so that no contour branches. The higher ground lies on the left.
 pub(super) fn contours(vertices: &[DVec3], triangles: &[[u32; 3]], within: PlanBox, levels: &[f64]) -> Vec<Vec<Stroke>> {
     // Each crossing is named by the edge it lies on: lesser and greater vertex.
     let name = |a: u32, b: u32| (a.min(b), a.max(b));

@@ -1,7 +1,7 @@
 //! Drawings of a design as SVG: plan, long profile, cross-sections, mass haul.
 //!
-//! All are drawn in px, as wide as the [`Style`] says, and scale with the page. Lines are within about a tenth of a px; the size of a
-//! drawing is bounded, whatever is drawn. The same input gives the same bytes.
+//! All are drawn in px, as wide as the [`Style`] says, and scale with the page. Lines are within about a tenth of a px; the size
+//! of a drawing is bounded, whatever is drawn. The same input gives the same bytes.
 
 mod bands;
 mod between;

@@ -5,12 +5,13 @@ use super::chart::Chart;
 use super::course::{Course, courses};
 use super::labels::width;
 use super::legend::{Block, Legend, Sample};
-use super::scale::{figure, range, round_step, signed};
+use super::scale::{figure, round_step, signed};
 use super::stations::{columns, station_text};
 use super::style::{MARGIN, SMALL};
 use super::svg::{Drawn, Path, Svg};
 use super::{Scene, Style};
 use crate::kernel::plan_box::PlanBox;
+use crate::kernel::range::range;
 use crate::mesh::drape::Drape;
 use crate::write::GENERATOR;
 use glam::DVec2;
@@ -129,20 +130,10 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     let on_ground = !ground.is_empty();
     let mut between = Between::default();
     ground.iter().for_each(|run| between.add(&course.heights, run, 0.0, length));
-    let mut blocks = vec![Block::symbol(Sample::Line("ln design"), "line")];
     let has_edges = edges_apart(&course);
-    if has_edges {
-        blocks.push(Block::symbol(Sample::Line("ln edge"), "left edge"));
-        blocks.push(Block::symbol(Sample::Line("ln edge right"), "right edge"));
-    }
-    if on_ground {
-        blocks.push(Block::symbol(Sample::Line("ln ground"), "ground"));
-        blocks.push(Block::symbol(Sample::Patch("c3"), "cut"));
-        blocks.push(Block::symbol(Sample::Patch("f3"), "fill"));
-    }
-    let rows = if on_ground { 5.0 } else { 3.0 };
-    let below = chart.bottom() + rows * ROW + 14.0;
-    let legend = Legend::new(blocks, size_x);
+    let last_row = row(&chart, row_count(on_ground));
+    let below = last_row + 14.0;
+    let legend = Legend::new(symbols(on_ground, has_edges), size_x);
     let total = below + legend.height() + 10.0;
     let title = format!("Long profile: {}", course.axis.name);
     let desc = format!(
@@ -162,9 +153,7 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     svg.heading(&title, &text, MARGIN, style.width() - 2.0 * MARGIN);
 
     let columns = columns(scene, length, scale);
-    let unit = scene.unit.label();
-    let row = |i: f64| chart.bottom() + i * ROW;
-    chart.columns(&mut svg, &columns, row(rows));
+    chart.columns(&mut svg, &columns, last_row);
     chart.rows(&mut svg, round_step(26.0 / (scale * factor)));
     chart.lines(&mut svg, "c3", &between.cut, true);
     chart.lines(&mut svg, "f3", &between.fill, true);
@@ -175,7 +164,43 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     chart.lines(&mut svg, "ln design", std::slice::from_ref(&course.heights), false);
     svg.rect("frame", chart.at, chart.size);
 
-    // Rows of figures.
+    figures(&mut svg, &chart, &course, &ground, &columns, scene.unit.label());
+    legend.draw(&mut svg, DVec2::new(LEFT, below));
+    Some(svg.finish())
+}
+
+/// What the legend explains.
+fn symbols(on_ground: bool, has_edges: bool) -> Vec<Block> {
+    let mut blocks = vec![Block::symbol(Sample::Line("ln design"), "line")];
+    if has_edges {
+        blocks.push(Block::symbol(Sample::Line("ln edge"), "left edge"));
+        blocks.push(Block::symbol(Sample::Line("ln edge right"), "right edge"));
+    }
+    if on_ground {
+        blocks.push(Block::symbol(Sample::Line("ln ground"), "ground"));
+        blocks.push(Block::symbol(Sample::Patch("c3"), "cut"));
+        blocks.push(Block::symbol(Sample::Patch("f3"), "fill"));
+    }
+    blocks
+}
+
+/// How many rows of figures there are below the field.
+fn row_count(on_ground: bool) -> f64 {
+    if on_ground { 5.0 } else { 3.0 }
+}
+
+/// Upper edge of a row of figures.
+fn row(chart: &Chart, i: f64) -> f64 {
+    chart.bottom() + i * ROW
+}
+
+/// The rows of figures: gradients, elevations of line and ground, depths, stations.
+fn figures(svg: &mut Svg, chart: &Chart, course: &Course, ground: &[Vec<DVec2>], columns: &[f64], unit: &str) {
+    let on_ground = !ground.is_empty();
+    let rows = row_count(on_ground);
+    let row = |i: f64| row(chart, i);
+    let length = course.axis.length;
+    let scale = chart.size.x / length;
     let mut rules = Path::default();
     for i in 1..=rows as u32 {
         rules.add(&[DVec2::new(12.0, row(f64::from(i))), DVec2::new(chart.right(), row(f64::from(i)))], false);
@@ -197,23 +222,20 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     name(rows - 1.0, "station");
     let design = |x: f64| height(&course.heights, x);
     let terrain = |x: f64| ground.iter().find_map(|run| height(run, x));
-    draw_gradients(&mut svg, &chart, &stretches, row(0.0), unit);
+    draw_gradients(svg, chart, &stretches, row(0.0), unit);
     let baseline = |i: f64| row(i) + 13.0;
     let of = |value: &dyn Fn(f64) -> Option<String>| -> Vec<(f64, String)> {
         columns.iter().filter_map(|x| Some((*x, value(*x)?))).collect()
     };
-    chart.below(&mut svg, "s m", baseline(1.0), of(&|x| Some(figure(design(x)?, 2))));
+    chart.below(svg, "s m", baseline(1.0), of(&|x| Some(figure(design(x)?, 2))));
     if on_ground {
-        chart.below(&mut svg, "s m", baseline(2.0), of(&|x| Some(figure(terrain(x)?, 2))));
+        chart.below(svg, "s m", baseline(2.0), of(&|x| Some(figure(terrain(x)?, 2))));
         for (class, sign) in [("s m cut", -1.0), ("s m fill", 1.0)] {
             let depth = |x: f64| Some(design(x)? - terrain(x)?).filter(|d| (*d < 0.0) == (sign < 0.0));
-            chart.below(&mut svg, class, baseline(3.0), of(&|x| Some(signed(depth(x)?, 2))));
+            chart.below(svg, class, baseline(3.0), of(&|x| Some(signed(depth(x)?, 2))));
         }
     }
-    chart.below(&mut svg, "s b m", baseline(rows - 1.0), of(&|x| Some(station_text(x, &columns))));
-
-    legend.draw(&mut svg, DVec2::new(LEFT, below));
-    Some(svg.finish())
+    chart.below(svg, "s b m", baseline(rows - 1.0), of(&|x| Some(station_text(x, columns))));
 }
 
 /// Gradients and lengths of the stretches that have room for them.

@@ -33,11 +33,6 @@ pub(super) fn multiples(from: f64, to: f64, step: f64) -> Vec<f64> {
     (0..=(last - first) as u32).map(|i| (first + f64::from(i)) * step).collect()
 }
 
-/// Least and greatest of some numbers; both infinite the wrong way round for none.
-pub(super) fn range(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
-    values.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
-}
-
 /// Whether a number is a multiple of a step, up to rounding.
 pub(super) fn is_multiple(value: f64, step: f64) -> bool {
     /// Share of a step that counts as rounding.

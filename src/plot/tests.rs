@@ -62,7 +62,8 @@ fn profiles_are_heights_of_the_meshes() {
     }
 }
 
-/// A road that falls 2 % to the left and rises 3 % to the right, half of it 3 wide: edges 0.06 below and 0.09 above the centre line.
+/// A road that falls 2 % to the left and rises 3 % to the right, half of it 3 wide: edges 0.06 below and 0.09 above the centre
+/// line.
 #[test]
 fn profiles_have_the_edges_of_roads() {
     let points = [[-50.0, 0.0, 100.0], [0.0, 0.0, 102.0], [50.0, 0.0, 102.0]];

@@ -48,3 +48,14 @@ pub enum ReadError {
     #[error("{0}")]
     Records(Defects),
 }
+
+impl ReadError {
+    /// The same with the help in the words of a file that has an option of its own.
+    #[must_use]
+    pub fn with_option(self, of_line: &str, own: &str) -> Self {
+        match self {
+            Self::Content { what, at, figures, help } => Self::Content { what, at, figures, help: help.replace(of_line, own) },
+            other => other,
+        }
+    }
+}

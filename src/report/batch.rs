@@ -1,7 +1,8 @@
 //! The summary of `slopegen batch`.
 
-use super::model::{Tool, Warning};
+use super::common::{Tool, Warning};
 use crate::kernel::sum::Sum;
+use crate::model::message::printable;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -121,7 +122,7 @@ fn total(jobs: &[JobRow]) -> Option<JobVolumes> {
 /// The summary as a table for people.
 pub fn render_batch(report: &BatchReport) -> String {
     let mut text = format!("{} {}: {} jobs\n\n", report.tool.name, report.tool.version, report.jobs.len());
-    let name = |row: &JobRow| super::page::printable(&row.job);
+    let name = |row: &JobRow| printable(&row.job);
     let width = report.jobs.iter().map(|row| name(row).chars().count()).max().unwrap_or(0).max("total".len());
     // Writing to a String cannot fail.
     let _ = writeln!(

@@ -1,7 +1,7 @@
 //! The report of `slopegen volume`: two surfaces, or a surface and a plane.
 
 use super::SCHEMA;
-use super::model::{Input, Tool, Units, Warning};
+use super::common::{Input, Tool, Units, Warning};
 use super::result::{ResultFigures, RunRecord};
 use super::volumes::{Balance, METHOD, METHOD_TEXT, SIGN_RULE, mean};
 use crate::overlay::{Areas, Between, Depth};

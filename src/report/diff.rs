@@ -7,7 +7,7 @@ pub use compare::{Change, compare};
 pub use text::render_diff;
 
 use super::between::Spot;
-use super::model::{Input, Tool, Warning};
+use super::common::{Input, Tool, Warning};
 use schemars::JsonSchema;
 use serde::Serialize;
 

@@ -1,7 +1,7 @@
 //! What `slopegen info` has to tell.
 
-use super::model::{Tool, Warning};
-use super::page::printable;
+use super::common::{Tool, Warning};
+use crate::model::message::printable;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write as _;

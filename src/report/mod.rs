@@ -3,13 +3,14 @@
 
 pub mod batch;
 pub mod between;
+pub mod build;
 pub mod check;
+pub mod common;
 pub mod diff;
 pub mod ground;
 pub mod html;
 pub mod info;
 pub mod json;
-pub mod model;
 mod page;
 pub mod result;
 pub mod schema;
@@ -24,7 +25,9 @@ mod testing;
 
 pub use batch::{BATCH_SCHEMA, BatchReport, JobResult, JobRow, JobVolumes, render_batch};
 pub use between::BetweenReport;
+pub use build::*;
 pub use check::{CHECK_SCHEMA, CheckReport, Checked, render_check, render_check_markdown};
+pub use common::*;
 pub use diff::{DIFF_SCHEMA, DiffReport, render_diff};
 pub use ground::{
     Daylight, EndArea, FinishedFigures, GroundAreas, PadRow, SectionRow, SectionSlopes, SlopeRange, StationRow, TerrainFigures,
@@ -32,7 +35,6 @@ pub use ground::{
 };
 pub use info::{INFO_SCHEMA, InfoReport, render_info};
 pub use json::write_json;
-pub use model::*;
 pub use result::{Options, OutputFile, ResultFigures, RunRecord, platform};
 pub use selftest::{CaseRow, FigureRow, HashRow, SELFTEST_SCHEMA, SelftestReport, render_selftest};
 pub use tables::write_station_table;
@@ -82,7 +84,8 @@ impl ReportFormat {
         self == Self::Html
     }
 
-    /// Writes a report in this format; the page draws `scene`, with cross-sections at `sections` or, without any, where it sees fit.
+    /// Writes a report in this format; the page draws `scene`, with cross-sections at `sections` or, without any, where it sees
+    /// fit.
     ///
     /// # Errors
     /// As [`write_json`], [`write_text`] and [`html::write_html`].

@@ -5,6 +5,7 @@ mod markdown;
 mod plain;
 
 use super::{Input, Units};
+use crate::model::message::printable;
 
 /// Width of the names before the figures in plain text.
 pub(super) const NAME: usize = 20;
@@ -204,11 +205,6 @@ impl Page {
             self.remark(&format!("{}: {first}", warning.code), lines.map(|line| line.trim().to_owned()).collect());
         }
     }
-}
-
-/// Text from a file, without characters that would move the cursor or colour a terminal.
-pub(super) fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
 #[cfg(test)]

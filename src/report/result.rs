@@ -20,12 +20,13 @@ pub struct RunRecord {
     pub command: &'static str,
     /// Processor and system of the program, such as `x86_64-linux`: elsewhere last digits may differ.
     pub platform: String,
-    /// The way from the folder of the report to the folder that paths are relative to; left out where the names given do not tell.
+    /// The way from the folder of the report to the folder that paths are relative to; left out where the names given do not
+    /// tell.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(regex(pattern = r"^\.(\.(/\.\.)*)?$"))]
     pub folder: Option<String>,
-    /// Options as given, by their long names, each with its values; a switch has none. Those that change no result (threads, colours)
-    /// are not among them.
+    /// Options as given, by their long names, each with its values; a switch has none. Those that change no result (threads,
+    /// colours) are not among them.
     pub options: Options,
 }
 
@@ -128,8 +129,8 @@ impl ResultFigures {
     }
 }
 
-/// The figures of a report in one form: JSON without blanks, keys in the order of their bytes, rows of lists in the order of the bytes
-/// of their JSON, names left out.
+/// The figures of a report in one form: JSON without blanks, keys in the order of their bytes, rows of lists in the order of the
+/// bytes of their JSON, names left out.
 fn figures(report: &Value) -> String {
     let kept = FIGURES.iter().filter_map(|key| Some(((*key).to_owned(), canonical(report.get(*key)?))));
     Value::Object(kept.collect::<Map<String, Value>>()).to_string()

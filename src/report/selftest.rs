@@ -1,6 +1,6 @@
 //! What `slopegen selftest` has to tell.
 
-use super::model::Tool;
+use super::common::Tool;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -8,8 +8,8 @@ use std::fmt::Write as _;
 /// Version of the keys.
 pub const SELFTEST_SCHEMA: &str = "slopegen-selftest/1";
 
-/// What the program computed of cases whose figures are known, on the machine it runs on. There are no times in it: the same program
-/// on the same machine gives the same bytes.
+/// What the program computed of cases whose figures are known, on the machine it runs on. There are no times in it: the same
+/// program on the same machine gives the same bytes.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct SelftestReport {
     /// Name and version of this schema.

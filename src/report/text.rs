@@ -7,9 +7,10 @@ pub(super) use between::ROUNDED;
 pub use between::{write_between, write_between_markdown};
 pub(super) use ground::in_percent;
 
-use super::page::{Column, Group, Page, Row, printable};
+use super::page::{Column, Group, Page, Row};
 use super::{BuriedStretch, Certificate, ExtentKind, LineFigures, Report, SurfaceFigures, Volumes};
 use crate::model::Slope;
+use crate::model::message::printable;
 use crate::write::EncodeError;
 use std::io::Write;
 

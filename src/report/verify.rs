@@ -1,8 +1,8 @@
 //! What `slopegen verify` has to tell.
 
 use super::diff::Change;
-use super::page::printable;
 use super::result::short;
+use crate::model::message::printable;
 use serde_json::Value;
 use std::fmt::Write as _;
 

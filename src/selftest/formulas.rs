@@ -18,8 +18,8 @@ pub fn pit_volume(l: f64, w: f64, n: f64, d: f64) -> f64 {
     l * w * d - (l + w) * n * d * d + 4.0 / 3.0 * n * n * d * d * d
 }
 
-/// Volume between the slopes inside a level rectangle and its plane, where they meet over the middle line (hip roof, `l ≥ w`): `l − w` of
-/// prism with section `w·height/2` and two half pyramids, `w·h/2·(l − w) + w²·h/3 = k·w²(3l − w)/12`.
+/// Volume between the slopes inside a level rectangle and its plane, where they meet over the middle line (hip roof, `l ≥ w`): `l
+/// − w` of prism with section `w·height/2` and two half pyramids, `w·h/2·(l − w) + w²·h/3 = k·w²(3l − w)/12`.
 pub fn roof_volume(l: f64, w: f64, k: f64) -> f64 {
     k * w * w * (3.0 * l - w) / 12.0
 }
@@ -45,8 +45,8 @@ pub fn segment_area(l: f64, [z1, z2]: [f64; 2], k: f64) -> f64 {
     n * (z1 + z2) * l * phi.cos() + n * n * (z1 * z1 * (FRAC_PI_2 + phi) + z2 * z2 * (FRAC_PI_2 - phi))
 }
 
-/// How steep a slope `k` shows in a section perpendicular to a line of gradient `g`: the plane has the gradient `g` along the line, and
-/// `√(k² − g²)` across it.
+/// How steep a slope `k` shows in a section perpendicular to a line of gradient `g`: the plane has the gradient `g` along the
+/// line, and `√(k² − g²)` across it.
 pub fn section_slope(k: f64, g: f64) -> f64 {
     ((k - g) * (k + g)).sqrt()
 }

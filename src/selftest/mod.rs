@@ -1,7 +1,7 @@
 //! Cases whose figures are known in closed form, run by the program itself: `slopegen selftest`.
 //!
-//! A case is data: files in memory, jobs, and what must come out, each figure with its formula and its bound. The jobs go through the
-//! pipeline that `build`, `sample` and `volume` use, readers and writers included.
+//! A case is data: files in memory, jobs, and what must come out, each figure with its formula and its bound. The jobs go through
+//! the pipeline that `build`, `sample` and `volume` use, readers and writers included.
 
 pub mod cases;
 pub mod formulas;

@@ -1,10 +1,10 @@
 //! Bounds for stretches of the line that are equally high at one place: arcs, seen from their centre.
 //!
-//! In the middle of a circle all sheets nearly tie. The box about a chord's worth of segments reaches nearer to the middle than the
-//! segments do, by the rise of their arc, and so no box can be left out there. But seen from the middle itself all of them are
-//! equally high, and from a place `ρ` aside of it they are higher by no more than `k·ρ·cos ψ`, where `ψ` is the least angle
-//! between the way there and any of their directions. On a curve of any shape the same holds about its centre of curvature, and for sloping
-//! lines about the place where their rulings meet.
+//! In the middle of a circle all sheets nearly tie. The box about a chord's worth of segments reaches nearer to the middle than
+//! the segments do, by the rise of their arc, and so no box can be left out there. But seen from the middle itself all of them
+//! are equally high, and from a place `ρ` aside of it they are higher by no more than `k·ρ·cos ψ`, where `ψ` is the least angle
+//! between the way there and any of their directions. On a curve of any shape the same holds about its centre of curvature, and
+//! for sloping lines about the place where their rulings meet.
 
 use glam::DVec2;
 

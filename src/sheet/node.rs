@@ -9,6 +9,8 @@ use rayon::prelude::*;
 
 use super::Segment;
 use super::focus::{Around, Bend, Focus};
+use crate::kernel::plan_box::PlanBox;
+use crate::kernel::range::range;
 
 /// Segments per leaf: testing a segment costs about as much as testing a box.
 const LEAF: usize = 8;
@@ -151,10 +153,10 @@ fn order(middles: &mut [Middle], first: u32) -> Vec<Shape> {
 
 /// Splits segments across the longer side of their box: the first half comes to the front. Its size.
 fn halve(middles: &mut [Middle]) -> usize {
-    let (lo, hi) = middles.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(lo, hi), m| (lo.min(m.at), hi.max(m.at)));
+    let size = PlanBox::of(middles.iter().map(|m| m.at)).size();
     let half = middles.len() / 2;
     // The number settles ties: the order of the leaves depends on the segments alone.
-    if hi.x - lo.x >= hi.y - lo.y {
+    if size.x >= size.y {
         middles.select_nth_unstable_by(half, |a, b| a.at.x.total_cmp(&b.at.x).then(a.id.cmp(&b.id)));
     } else {
         middles.select_nth_unstable_by(half, |a, b| a.at.y.total_cmp(&b.at.y).then(a.id.cmp(&b.id)));
@@ -189,7 +191,7 @@ fn boxed(segments: &[Segment], size: f64, k: f64) -> (Node, Option<Focus>) {
     // The straight line of best fit, then lifted to cover all.
     let rise = if spread > 0.0 { (axis.dot(tilt) / spread).clamp(-STEEPEST_LID * k, STEEPEST_LID * k) } else { 0.0 };
     let above = |p: DVec3| p.z - rise * axis.dot(p.truncate() - centre);
-    let (floor, lid) = ends().fold((f64::INFINITY, f64::NEG_INFINITY), |(f, l), p| (f.min(above(p)), l.max(above(p))));
+    let (floor, lid) = range(ends().map(above));
     let lean = rise / ((k - rise) * (k + rise)).sqrt();
     let half = 0.5 * (hi - lo);
     let around = Around { mean: mean.truncate(), axis, rise, slack: lid - floor + 2.0 * k * half.y };

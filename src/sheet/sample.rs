@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::{Grid, Index, Segment, raster};
 use crate::kernel::frame::Frame;
+use crate::kernel::plan_box::PlanBox;
 use crate::model::{Line, Sheet, Slope};
 
 /// Points handled together: enough to repay the start of a task, few enough to share among threads.
@@ -27,10 +28,8 @@ impl Heights {
     /// Where a part of the line lies buried under the sheet of another, the height is that of the other: the envelope of
     /// all. Precondition: every segment is flatter than the slope (see [`Segment::new`]), and the line has one.
     pub fn new(line: &Line, slope: Slope, sheet: Sheet) -> Self {
-        let vertices = || line.chains.iter().flat_map(|chain| &chain.vertices).map(|v| v.truncate());
-        let min = vertices().fold(DVec2::INFINITY, DVec2::min);
-        let max = vertices().fold(DVec2::NEG_INFINITY, DVec2::max);
-        let frame = Frame::around(min, max);
+        let PlanBox { lo, hi } = line.plan_box();
+        let frame = Frame::around(lo, hi);
         let mirror = match sheet {
             Sheet::Falling => 1.0,
             Sheet::Rising => -1.0,

@@ -7,6 +7,7 @@ use super::closure::{Closure, Knot, VertexId};
 use super::facet::{END, FacetId};
 use super::network::twin;
 use super::trim::Sheet;
+use crate::kernel::union::Union;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
@@ -56,7 +57,7 @@ impl Arcs {
     /// Merges vertices closer than `snap` along the boundary and pairs the arcs.
     pub fn new(sheet: &Sheet, closure: &Closure, snap: f64) -> Self {
         let nodes = sheet.network.nodes.len() as VertexId;
-        let mut merge = Merge { parent: (0..closure.vertices.len() as VertexId).collect(), nodes };
+        let mut merge = Merge { sets: Union::new(closure.vertices.len()), nodes };
         let place = |v: VertexId| closure.vertices[v as usize];
         for knots in &closure.knots {
             for w in knots.windows(2) {
@@ -168,32 +169,19 @@ impl Arcs {
     }
 }
 
-/// Union–find over vertices; the least id stands for the set, so nodes of the line win. Two nodes are never united.
+/// Vertices that were merged, each known by the least of them, so nodes of the line win. Two nodes are never united.
 struct Merge {
-    parent: Vec<VertexId>,
+    sets: Union,
     nodes: VertexId,
 }
 
 impl Merge {
     fn root(&mut self, v: VertexId) -> VertexId {
-        let mut root = v;
-        while self.parent[root as usize] != root {
-            root = self.parent[root as usize];
-        }
-        let mut at = v;
-        while self.parent[at as usize] != root {
-            at = std::mem::replace(&mut self.parent[at as usize], root);
-        }
-        root
+        self.sets.root(v)
     }
 
+    /// Says whether they were two, and are one now.
     fn unite(&mut self, v: VertexId, w: VertexId) -> bool {
-        let (a, b) = (self.root(v), self.root(w));
-        let (low, high) = (a.min(b), a.max(b));
-        if low == high || high < self.nodes {
-            return false;
-        }
-        self.parent[high as usize] = low;
-        true
+        self.root(v).max(self.root(w)) >= self.nodes && self.sets.join(v, w)
     }
 }

@@ -28,8 +28,8 @@ impl Order {
         self.0[chain as usize].against
     }
 
-    /// The ends of a piece between two neighbours, or less, in the line as given. The end of a ring's last segment counts on past the
-    /// last vertex.
+    /// The ends of a piece between two neighbours, or less, in the line as given. The end of a ring's last segment counts on past
+    /// the last vertex.
     pub(super) fn as_given(&self, [from, to]: [Given; 2]) -> [Given; 2] {
         let Turn { chain, first, against, count } = self.0[from.chain as usize];
         // The segment of the line as given, by its earlier end.

@@ -18,8 +18,8 @@ use rustc_hash::FxHashMap;
 /// Vertices of one facet closer than this (length units) are one, unless that spoils a surface.
 pub const SNAP: f64 = 1e-8;
 
-/// The same where it does, as in the tips of very narrow strips: ten times the rounding of coordinates ten kilometres from the local
-/// origin.
+/// The same where it does, as in the tips of very narrow strips: ten times the rounding of coordinates ten kilometres from the
+/// local origin.
 pub const FINER_SNAP: f64 = 2e-11;
 
 /// Knots closer than this (relative, in `τ`) lie on one ruling.
@@ -114,8 +114,8 @@ pub enum Scope {
     All,
 }
 
-/// Closes the facets of a sheet. `hints` are extra rulings to look at: facet and `τ`. Vertices of one facet closer than `snap` are
-/// one.
+/// Closes the facets of a sheet. `hints` are extra rulings to look at: facet and `τ`. Vertices of one facet closer than `snap`
+/// are one.
 pub fn close(sheet: &Sheet, scope: Scope, hints: &[(FacetId, f64)], snap: f64) -> Closure {
     let nodes = sheet.network.nodes.len();
     let joints = &sheet.fans.joints;
@@ -227,13 +227,11 @@ impl<'a> State<'a> {
         let at = |i: usize| -> (VertexId, FacetId) {
             let node = ends[i];
             match facet.lateral[i] {
-                _ if covered[node as usize] => (node, hidden),
-                Lateral::Hidden => (node, hidden),
-                Lateral::Crease(other) => (node, other),
-                Lateral::Joint(j) => {
-                    let tip = &self.tips[j as usize];
-                    if tip.r > 0.0 { (self.tip_vertex(j), tip.partner) } else { (node, hidden) }
+                Lateral::Crease(other) if !covered[node as usize] => (node, other),
+                Lateral::Joint(j) if !covered[node as usize] && self.tips[j as usize].r > 0.0 => {
+                    (self.tip_vertex(j), self.tips[j as usize].partner)
                 }
+                _ => (node, hidden),
             }
         };
         let (first, last) = (at(0), at(1));

@@ -316,7 +316,7 @@ impl<'a> Shared<'a> {
         whole
     }
 
-    /// Level points of a joint from its node outwards, each with its code, and the end.
+    /// Level points of a joint from its node outwards, without its `end`.
     fn joint_ladder(&self, j: u32, end: PointId) -> Vec<PointId> {
         let range = self.joint_start[j as usize]..self.joint_start[j as usize + 1];
         range.filter(|&id| id != end).collect()

@@ -4,9 +4,10 @@ use super::canonical;
 use super::noding::{Segments, weld};
 use super::simplify::{self, Chord};
 use crate::kernel::frame::Frame;
+use crate::kernel::plan_box::PlanBox;
 use crate::model::{Design, Extent, Joggle, Line, Role, Sheet, Side};
 use glam::{DVec2, DVec3};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Vertices closer than this (length units, 3D) are one vertex.
 pub const WELD_DISTANCE: f64 = 1e-6;
@@ -64,9 +65,9 @@ pub struct Edge {
     pub wanted: [bool; 2],
     /// Whether the inside of a ring lies on the left (0) and on the right (1).
     pub interior: [bool; 2],
-    /// Given vertices at its ends; the end of a ring's last segment counts on past the last vertex. An edge of a simplified ring may
-    /// run over the first vertex: it then ends at a lesser one than it begins, or a greater one where it runs against its chain.
-    /// Where several chains share an edge, one of them.
+    /// Given vertices at its ends; the end of a ring's last segment counts on past the last vertex. An edge of a simplified ring
+    /// may run over the first vertex: it then ends at a lesser one than it begins, or a greater one where it runs against its
+    /// chain. Where several chains share an edge, one of them.
     pub given: [Given; 2],
     /// Whether it runs against its chain.
     pub against: bool,
@@ -110,7 +111,7 @@ impl Network {
     /// Expects a validated line, every segment flatter than the slope.
     pub fn new(line: &Line, design: &Design, bound: f64) -> Self {
         let frame = design.frame.unwrap_or_else(|| {
-            let (min, max) = plan_box(line);
+            let PlanBox { lo: min, hi: max } = line.plan_box();
             Frame::around(min, max)
         });
         let sign = if design.sheet == Sheet::Rising { -1.0 } else { 1.0 };
@@ -130,6 +131,11 @@ impl Network {
             network.joggle(joggle, slopes[0].min(slopes[1]), design.extent);
         }
         network
+    }
+
+    /// Length of an edge in plan.
+    pub fn length(&self, edge: &Edge) -> f64 {
+        self.nodes[edge.a as usize].truncate().distance(self.nodes[edge.b as usize].truncate())
     }
 
     /// Moves the nodes in height, so little that every edge stays flatter than `flattest`. Nodes where the slope is to end stay.
@@ -163,7 +169,7 @@ impl Network {
         self.simplified_max += shifts.iter().fold(0.0, |most, shift| f64::max(most, shift.abs()));
     }
 
-    /// Height in the world of a height of the falling sheet.
+    /// The place in the world of a point of the falling sheet.
     pub fn world(&self, p: DVec3) -> DVec3 {
         self.frame.to_world(DVec3::new(p.x, p.y, self.sign * p.z))
     }
@@ -207,7 +213,7 @@ impl Network {
     fn with_edges(mut self, pieces: &[Piece], slopes: [f64; 2], bound: f64) -> Self {
         let (flatter, steeper) = (slopes[0].min(slopes[1]), slopes[0].max(slopes[1]));
         let runs = Runs::new(self.nodes.len(), pieces);
-        let mut used = FxHashMap::default();
+        let mut used = FxHashSet::default();
         for run in runs.all(&self.nodes) {
             let points: Vec<DVec3> = run.nodes.iter().map(|&n| self.nodes[n as usize]).collect();
             let steepest = points
@@ -223,10 +229,10 @@ impl Network {
         self
     }
 
-    fn add_chord(&mut self, run: &Run, points: &[DVec3], chord: &Chord, used: &mut FxHashMap<[u32; 2], ()>) {
+    fn add_chord(&mut self, run: &Run, points: &[DVec3], chord: &Chord, used: &mut FxHashSet<[u32; 2]>) {
         let (a, b) = (run.nodes[chord.from], run.nodes[chord.to]);
         let pair = [a.min(b), a.max(b)];
-        if chord.to - chord.from > 1 && used.contains_key(&pair) {
+        if chord.to - chord.from > 1 && used.contains(&pair) {
             // Two runs between the same nodes, closer together than the bound: keep them apart by a vertex of this one.
             let middle = usize::midpoint(chord.from, chord.to);
             for (from, to) in [(chord.from, middle), (middle, chord.to)] {
@@ -235,7 +241,7 @@ impl Network {
             }
             return;
         }
-        used.insert(pair, ());
+        used.insert(pair);
         let (pa, pb) = (points[chord.from], points[chord.to]);
         let length = pa.truncate().distance(pb.truncate());
         let mut inner = Vec::with_capacity(chord.dropped.len());
@@ -272,14 +278,6 @@ impl Network {
             edge.b = new_id[edge.b as usize];
         }
     }
-}
-
-/// Plan box of all vertices, world coordinates.
-fn plan_box(line: &Line) -> (DVec2, DVec2) {
-    line.chains
-        .iter()
-        .flat_map(|c| &c.vertices)
-        .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(lo, hi), v| (lo.min(v.truncate()), hi.max(v.truncate())))
 }
 
 /// The pieces of line between nodes, each once, with the sides on which a slope is wanted.

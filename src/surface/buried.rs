@@ -1,9 +1,10 @@
 //! Stretches of the line that lie below the slope of another part, in the words of the line: chains and stations.
 
+use super::stations::Stations;
 use crate::model::{Chain, Design, Line, Note, Sheet as SheetKind};
 use crate::sheet::Segment;
 use crate::slope::closure::Closure;
-use crate::slope::network::{Edge, Given, Network, twin};
+use crate::slope::network::{Edge, Network, twin};
 use crate::slope::trim::Sheet;
 use glam::{DVec2, DVec3};
 
@@ -71,13 +72,13 @@ pub(crate) fn covered_ranges(sheet: &Sheet, closure: &Closure, e: u32) -> Vec<[f
 
 /// Finds the covered stretches of a closed sheet.
 pub(crate) fn stretches(line: &Line, sheet: &Sheet, closure: &Closure) -> Found {
-    let stations = Stations::new(line, sheet.network);
+    let stations = OnEdges::new(line, sheet.network);
     let mut parts: Vec<(usize, Part)> = Vec::new();
     for (e, edge) in sheet.network.edges.iter().enumerate() {
         for s in covered_ranges(sheet, closure, e as u32).into_iter().filter(|s| s[1] - s[0] > SHORTEST) {
             let middle = on(sheet, edge, 0.5 * (s[0] + s[1]));
             let covered = sheet.index.height(middle.truncate(), None).0 > middle.z + TOUCHING;
-            let mut at = s.map(|s| stations.of(e, s));
+            let mut at = s.map(|s| stations.station(e, s));
             if edge.against {
                 at.reverse();
             }
@@ -120,10 +121,10 @@ fn axis_stations(chain: &Chain, along: [f64; 2]) -> [f64; 2] {
 /// The point of edge `edge` at plan distance `s` from its start.
 fn on(sheet: &Sheet, edge: &Edge, s: f64) -> DVec3 {
     let (a, b) = (sheet.network.nodes[edge.a as usize], sheet.network.nodes[edge.b as usize]);
-    a.lerp(b, s / a.truncate().distance(b.truncate()))
+    a.lerp(b, s / sheet.network.length(edge))
 }
 
-fn describe(sheet: &Sheet, stations: &Stations, chain: usize, [from, to]: [f64; 2], group: &[(usize, Part)]) -> Buried {
+fn describe(sheet: &Sheet, stations: &OnEdges<'_>, chain: usize, [from, to]: [f64; 2], group: &[(usize, Part)]) -> Buried {
     let mut deepest = (f64::NEG_INFINITY, DVec3::ZERO, 0);
     for (_, part) in group {
         let edge = &sheet.network.edges[part.edge];
@@ -163,7 +164,7 @@ fn describe(sheet: &Sheet, stations: &Stations, chain: usize, [from, to]: [f64; 
         depth,
         at: sheet.network.world(place).truncate(),
         by_chain: sheet.network.edges[by as usize].given[0].chain as usize,
-        by_station: stations.of(by as usize, foot),
+        by_station: stations.station(by as usize, foot),
         free_slope: free_slope(sheet, group),
     }
 }
@@ -267,51 +268,32 @@ impl Found {
     }
 }
 
-/// Stations along the given chains of places on edges.
-struct Stations {
-    by_chain: Vec<Vec<f64>>,
-    /// `(s, station)` along each edge.
-    on_edge: Vec<Vec<(f64, f64)>>,
-    /// Of each edge its chain, and whether it runs against it.
-    along: Vec<(usize, bool)>,
+/// Stations along the chains of places on edges.
+struct OnEdges<'a> {
+    network: &'a Network,
+    stations: Stations,
+    /// `(s, station)` of the given vertices along each edge.
+    marks: Vec<Vec<(f64, f64)>>,
 }
 
-impl Stations {
-    fn new(line: &Line, network: &Network) -> Self {
-        let by_chain: Vec<Vec<f64>> = line.chains.iter().map(|c| c.stations()).collect();
-        let along = network.edges.iter().map(|edge| (edge.given[0].chain as usize, edge.against)).collect();
-        let mut stations = Self { by_chain, on_edge: Vec::new(), along };
-        for edge in &network.edges {
-            let length = network.nodes[edge.a as usize].truncate().distance(network.nodes[edge.b as usize].truncate());
+impl<'a> OnEdges<'a> {
+    fn new(line: &Line, network: &'a Network) -> Self {
+        let stations = Stations::along(line);
+        let marks = |edge: &Edge| {
             let mut marks = vec![(0.0, stations.at(edge.given[0]))];
             marks.extend(edge.inner.iter().map(|p| (p.s, stations.at(p.given))));
-            marks.push((length, stations.at(edge.given[1])));
-            stations.on_edge.push(marks);
-        }
-        stations
-    }
-
-    /// Station of a place on the line; of a ring's first vertex after its last one, the ring's length.
-    fn at(&self, given: Given) -> f64 {
-        let chain = &self.by_chain[given.chain as usize];
-        let vertex = given.vertex as usize;
-        let at = chain[vertex];
-        if given.part > 0.0 { at + (chain[vertex + 1] - at) * given.part } else { at }
+            marks.push((network.length(edge), stations.at(edge.given[1])));
+            marks
+        };
+        Self { network, marks: network.edges.iter().map(marks).collect(), stations }
     }
 
     /// Station of the place `s` along edge `e`.
-    fn of(&self, e: usize, s: f64) -> f64 {
-        let marks = &self.on_edge[e];
+    fn station(&self, e: usize, s: f64) -> f64 {
+        let marks = &self.marks[e];
         let i = marks.partition_point(|m| m.0 < s).clamp(1, marks.len() - 1);
         let ((s0, a), (s1, b)) = (marks[i - 1], marks[i]);
-        // An edge of a simplified ring may run over the first vertex: there the station starts again.
-        let (chain, against) = self.along[e];
-        let length = self.by_chain[chain].last().copied().unwrap_or(0.0);
-        let (a, b) = match against {
-            false if b < a => (a, b + length),
-            true if a < b => (a + length, b),
-            _ => (a, b),
-        };
+        let [a, b] = self.stations.counting_on(&self.network.edges[e], [a, b]);
         a + (b - a) * ((s - s0) / (s1 - s0)).clamp(0.0, 1.0)
     }
 }

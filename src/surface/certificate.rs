@@ -3,8 +3,9 @@
 use super::SurfaceError;
 use super::body::Body;
 use super::buried::covered_ranges;
-use crate::mesh::check::{self, HalfEdges};
-use crate::model::{Design, Line, Part};
+use crate::kernel::orientation::{Turn, turn};
+use crate::mesh::check::{self, HalfEdges, Soundness};
+use crate::model::{Design, Line, Part, Tin};
 use crate::sheet::Heights;
 use crate::slope::closure::{Closure, SNAP};
 use crate::slope::trim::Sheet;
@@ -14,13 +15,16 @@ use rayon::prelude::*;
 /// Triangles lower than this (length units) are too small for an angle.
 pub(crate) const MEASURABLE_HEIGHT: f64 = 1e-4;
 
-/// Triangles of slopes narrower than this in plan (length units) are too narrow for one: points as close as that are taken for one
-/// where facets meet.
+/// Triangles of slopes narrower than this in plan (length units) are too narrow for one: points as close as that are taken for
+/// one where facets meet.
 const MEASURABLE_WIDTH: f64 = SNAP;
 
 /// Bounds of the slope (degrees): in planar strips, on cones.
 pub(crate) const STRIP_BOUND: f64 = 0.01;
 pub(crate) const CONE_BOUND: f64 = 0.1;
+
+/// Slope triangles off by more than this (degrees) are counted.
+const COUNTED: f64 = 0.1;
 
 /// Triangles whose heights are compared with the closed form of the given line: at their corners and centroid.
 const HEIGHT_SAMPLES: usize = 2048;
@@ -66,27 +70,18 @@ pub(crate) fn measure(
         || check::check_with(&body.tin.vertices, &body.tin.triangles, edges, open),
         || height_deviation(line, design, body),
     );
-    let mut certificate = Certificate {
+    let certificate = Certificate {
         paired: true,
         manifold: soundness.manifold(),
         overlaps: soundness.overlaps,
         input_edges_kept: edges_kept(sheet, body, edges, closure),
         height_max_deviation,
         ..Certificate::default()
-    };
-    measure_slopes(design, body, &mut certificate);
+    }
+    .with(deviations(design, body));
     let scale = body.tin.vertices.iter().fold(1.0_f64, |m, p| m.max(p.abs().max_element()));
-    let place = |p: DVec2| {
-        let p = body.tin.frame.to_world(p.extend(0.0));
-        format!("({:.3}, {:.3})", p.x, p.y)
-    };
-    let flaw = if !certificate.manifold {
-        Some(format!(
-            "{} triangles turned over or degenerate, {} edges used twice, {} unused vertices",
-            soundness.turned, soundness.repeated_edges, soundness.unused
-        ))
-    } else if let Some(at) = soundness.overlap_at {
-        Some(format!("its boundary crosses itself {} times, first near {}", soundness.overlaps, place(at)))
+    let flaw = if let Some(flaw) = flaw(&soundness, &body.tin) {
+        Some(flaw)
     } else if certificate.strip_max_deviation_deg > STRIP_BOUND {
         Some(format!("a strip triangle is {:.4}° off the slope", certificate.strip_max_deviation_deg))
     } else if certificate.sector_max_deviation_deg > CONE_BOUND {
@@ -104,37 +99,80 @@ pub(crate) fn measure(
     }
 }
 
-fn measure_slopes(design: &Design, body: &Body, certificate: &mut Certificate) {
+/// Deviations of the triangles of a sheet from its slope.
+fn deviations(design: &Design, body: &Body) -> Deviations {
     let alpha = design.slope.ratio().atan();
-    let found = (0..body.on_cone.len()).into_par_iter().fold(Slopes::default, |mut slopes, t| {
-        let [a, b, c] = body.tin.corners(t);
-        if a.z.max(b.z).max(c.z) - a.z.min(b.z).min(c.z) > MEASURABLE_HEIGHT {
-            let normal = (b - a).cross(c - a);
-            let deviation = (normal.truncate().length().atan2(normal.z) - alpha).abs().to_degrees();
-            let worst = if body.on_cone[t] { &mut slopes.sectors } else { &mut slopes.strips };
-            if deviation > worst.min(0.1) && width([a, b, c]) > MEASURABLE_WIDTH {
-                *worst = worst.max(deviation);
-                slopes.beyond_0_1deg += usize::from(deviation > 0.1);
-            }
-        }
-        slopes
+    let found = (0..body.on_cone.len()).into_par_iter().fold(Deviations::default, |mut found, t| {
+        found.take(body.tin.corners(t), alpha, body.on_cone[t], |corners| width(corners) > MEASURABLE_WIDTH);
+        found
     });
-    let found = found.reduce(Slopes::default, |a, b| Slopes {
-        strips: a.strips.max(b.strips),
-        sectors: a.sectors.max(b.sectors),
-        beyond_0_1deg: a.beyond_0_1deg + b.beyond_0_1deg,
-    });
-    certificate.strip_max_deviation_deg = found.strips;
-    certificate.sector_max_deviation_deg = found.sectors;
-    certificate.triangles_beyond_0_1deg = found.beyond_0_1deg;
+    found.reduce(Deviations::default, Deviations::join)
 }
 
-/// Largest deviations from the slope, in degrees.
-#[derive(Default)]
-struct Slopes {
+/// Largest deviations of triangles from their slope, in degrees.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Deviations {
     strips: f64,
     sectors: f64,
     beyond_0_1deg: usize,
+}
+
+impl Deviations {
+    /// Takes a triangle of a slope of the angle `alpha` (radians), unless it is too small for an angle: lower than
+    /// [`MEASURABLE_HEIGHT`], or not `measurable`, which is asked only where it matters.
+    pub(crate) fn take(&mut self, [a, b, c]: [DVec3; 3], alpha: f64, on_cone: bool, measurable: impl Fn([DVec3; 3]) -> bool) {
+        if a.z.max(b.z).max(c.z) - a.z.min(b.z).min(c.z) <= MEASURABLE_HEIGHT {
+            return;
+        }
+        let normal = (b - a).cross(c - a);
+        let deviation = (normal.truncate().length().atan2(normal.z) - alpha).abs().to_degrees();
+        let worst = if on_cone { &mut self.sectors } else { &mut self.strips };
+        if deviation > worst.min(COUNTED) && measurable([a, b, c]) {
+            *worst = worst.max(deviation);
+            self.beyond_0_1deg += usize::from(deviation > COUNTED);
+        }
+    }
+
+    fn join(self, other: Self) -> Self {
+        Self {
+            strips: self.strips.max(other.strips),
+            sectors: self.sectors.max(other.sectors),
+            beyond_0_1deg: self.beyond_0_1deg + other.beyond_0_1deg,
+        }
+    }
+}
+
+impl Certificate {
+    /// The same with the deviations found.
+    pub(crate) fn with(self, found: Deviations) -> Self {
+        Self {
+            strip_max_deviation_deg: found.strips,
+            sector_max_deviation_deg: found.sectors,
+            triangles_beyond_0_1deg: found.beyond_0_1deg,
+            ..self
+        }
+    }
+}
+
+/// What is wrong with a mesh that is no manifold, or whose boundary crosses itself.
+pub(crate) fn flaw(soundness: &Soundness, tin: &Tin) -> Option<String> {
+    let near = |p: DVec3| format!("first near ({:.3}, {:.3})", p.x, p.y);
+    if !soundness.manifold() {
+        let turned = (0..tin.triangles.len()).find(|&t| {
+            let [a, b, c] = tin.corners(t).map(DVec3::truncate);
+            turn(a, b, c) != Turn::Left
+        });
+        let first = turned.map(|t| format!(" ({})", near(tin.world(tin.triangles[t][0] as usize))));
+        return Some(format!(
+            "{} triangles turned over or degenerate{}, {} edges used twice, {} unused vertices",
+            soundness.turned,
+            first.unwrap_or_default(),
+            soundness.repeated_edges,
+            soundness.unused
+        ));
+    }
+    let at = tin.frame.to_world(soundness.overlap_at?.extend(0.0));
+    Some(format!("its boundary crosses itself {} times, {}", soundness.overlaps, near(at)))
 }
 
 /// Width in plan: the least height of the triangle.

@@ -1,8 +1,9 @@
 //! Foot points: which place of the line every slope triangle belongs to.
 
-use crate::model::{Chain, Line, Sheet};
+use super::stations::Stations;
+use crate::model::Sheet;
 use crate::slope::facet::{Facet, Kind};
-use crate::slope::network::{Edge, Given, Network};
+use crate::slope::network::Network;
 use glam::DVec2;
 
 /// The foot points of one facet, as stations: a linear function of the plan position on a strip, one station on a cone.
@@ -33,50 +34,6 @@ impl Foot {
     }
 }
 
-/// Stations of the vertices of each chain: those on its centre line where it has one.
-pub(super) struct Stations {
-    of_vertices: Vec<Vec<f64>>,
-    /// Length of rings whose stations are their own.
-    rings: Vec<Option<f64>>,
-}
-
-impl Stations {
-    pub(super) fn new(line: &Line) -> Self {
-        let own = |chain: &Chain| chain.axis.as_ref().map_or_else(|| chain.stations(), |axis| axis.stations.clone());
-        let of_vertices: Vec<Vec<f64>> = line.chains.iter().map(own).collect();
-        let ring = |(chain, stations): (&Chain, &Vec<f64>)| {
-            let own = chain.closed() && chain.axis.is_none();
-            stations.last().copied().filter(|_| own)
-        };
-        let rings = line.chains.iter().zip(&of_vertices).map(ring).collect();
-        Self { of_vertices, rings }
-    }
-
-    fn at(&self, given: Given) -> f64 {
-        let stations = &self.of_vertices[given.chain as usize];
-        let from = stations[given.vertex as usize];
-        let to = stations.get(given.vertex as usize + 1).copied().unwrap_or(from);
-        from + given.part * (to - from)
-    }
-
-    /// A station from the length of a ring on, as one from nought: there the ring begins.
-    fn on_ring(&self, edge: &Edge, station: f64) -> f64 {
-        let ring = self.rings[edge.given[0].chain as usize];
-        ring.filter(|length| station >= *length).map_or(station, |length| station - length)
-    }
-
-    /// Stations of both ends of an edge. Of one that runs over the first vertex of a ring, the later counts on past its length.
-    fn ends(&self, edge: &Edge) -> [f64; 2] {
-        let [first, second] = edge.given.map(|given| self.at(given));
-        let length = self.rings[edge.given[0].chain as usize].unwrap_or(0.0);
-        match edge.against {
-            false if second < first => [first, second + length],
-            true if first < second => [first + length, second],
-            _ => [first, second],
-        }
-    }
-}
-
 /// The foot points of `facet`; `leaving` is a half-edge that leaves the node of a sector.
 pub(super) fn foot(facet: &Facet, network: &Network, stations: &Stations, leaving: Option<u32>) -> Foot {
     let (half_edge, on_cone) = match facet.kind {
@@ -84,7 +41,7 @@ pub(super) fn foot(facet: &Facet, network: &Network, stations: &Stations, leavin
         Kind::Sector(_) => (leaving.unwrap_or(0), true),
     };
     let edge = &network.edges[(half_edge / 2) as usize];
-    let [a, b] = stations.ends(edge);
+    let [a, b] = stations.counting_on(edge, edge.given.map(|given| stations.at(given)));
     let (from, to) = if half_edge & 1 == 0 { (a, b) } else { (b, a) };
     let (from, to) = if on_cone { (stations.on_ring(edge, from), stations.on_ring(edge, from)) } else { (from, to) };
     let gradient = if on_cone || facet.tau_max <= 0.0 {

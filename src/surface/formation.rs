@@ -1,5 +1,7 @@
 //! What lies on platforms, in mesh numbers: breaklines, and the roads between their edges.
 
+use crate::kernel::plan_box::PlanBox;
+use crate::kernel::segment;
 use crate::mesh::strip::{self, Beside};
 use crate::model::{Breakline, Chain, Line};
 use crate::slope::emit::Slopes;
@@ -79,7 +81,7 @@ impl<'a> Roads<'a> {
             if chain.axis.is_none() || edge.given[0].chain != edge.given[1].chain {
                 continue;
             }
-            let length = network.nodes[edge.a as usize].truncate().distance(network.nodes[edge.b as usize].truncate());
+            let length = network.length(edge);
             // Points whose station is known, by distance from the start.
             let mut marks: Vec<(f64, f64)> = Vec::new();
             let ends = [(0.0, Some(edge.given[0])), (length, Some(edge.given[1]))];
@@ -164,14 +166,10 @@ impl<'a> Roads<'a> {
     /// Whether another chain begins inside of this ring.
     fn holds_others(&self, chain: usize) -> bool {
         let ring = &self.line.chains[chain].vertices;
-        let (lo, hi) = ring.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(lo, hi), v| {
-            let p = v.truncate();
-            (lo.min(p), hi.max(p))
-        });
+        let bounds = PlanBox::of(ring.iter().map(|v| v.truncate()));
         let others = self.line.chains.iter().enumerate().filter(|(c, _)| *c != chain);
         others.filter_map(|(_, other)| other.vertices.first()).map(|v| v.truncate()).any(|p| {
-            let within = p.cmpge(lo).all() && p.cmple(hi).all();
-            within && (0..ring.len()).fold(false, |odd, i| odd ^ crosses_ray(p, ring[i], ring[(i + 1) % ring.len()]))
+            bounds.contains(p) && (0..ring.len()).fold(false, |odd, i| odd ^ crosses_ray(p, ring[i], ring[(i + 1) % ring.len()]))
         })
     }
 }
@@ -199,7 +197,7 @@ fn nearest(axis: &Breakline, p: DVec2) -> Option<f64> {
     let mut best = (f64::INFINITY, None);
     for (w, s) in axis.vertices.windows(2).zip(stations.windows(2)) {
         let (a, b) = (w[0].truncate(), w[1].truncate());
-        let part = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+        let part = segment::foot(p, [a, b]);
         let distance = p.distance_squared(a.lerp(b, part));
         if distance < best.0 {
             best = (distance, Some(s[0] + part * (s[1] - s[0])));

@@ -9,12 +9,13 @@ mod flats;
 mod formation;
 mod room;
 mod solve;
+mod stations;
 mod touching;
 
 pub(crate) use body::Moves;
 pub use buried::Buried;
 pub use certificate::Certificate;
-pub(crate) use certificate::{CONE_BOUND, MEASURABLE_HEIGHT, STRIP_BOUND};
+pub(crate) use certificate::{CONE_BOUND, Deviations, MEASURABLE_HEIGHT, STRIP_BOUND, flaw};
 pub use curves::Mark;
 pub use feet::Foot;
 pub(crate) use touching::{in_spite_of_touching, note as joggle_note};
@@ -403,7 +404,7 @@ impl Task<'_> {
 
 /// The facets that have triangles, and the one of each triangle.
 fn feet_of(line: &Line, sheet: &Sheet, slopes: &Slopes) -> (Vec<Foot>, Vec<u32>) {
-    let stations = feet::Stations::new(line);
+    let stations = stations::Stations::on_axes(line);
     let mut feet = Vec::new();
     let mut last = None;
     let mut foot_of = Vec::with_capacity(slopes.facets.len());

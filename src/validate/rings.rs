@@ -32,8 +32,8 @@ struct Rings<'a> {
     segments: Vec<Segment>,
 }
 
-/// Checks the rings among the chains. The result names, by number of chain, rings that lie inside an odd number of others, each with
-/// the innermost ring around it; nothing while there are defects.
+/// Checks the rings among the chains. The result names, by number of chain, rings that lie inside an odd number of others, each
+/// with the innermost ring around it; nothing while there are defects.
 pub(super) fn check(label: &str, chains: &[Chain], defects: &mut Defects) -> Vec<(usize, usize)> {
     let all = Locator::of_chains(label, chains);
     let numbers: Vec<usize> = (0..chains.len()).filter(|&i| chains[i].closed()).collect();

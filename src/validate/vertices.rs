@@ -2,6 +2,7 @@
 
 use super::place::Locator;
 use super::{INPUT_LIMIT, MERGE_DISTANCE, Options};
+use crate::kernel::range::range;
 use crate::model::{Breakline, Chain, Defect, Defects, Line, Note, Place, Role};
 use crate::read::{InputFormat, RawInput, RawLine, RawShape, RawVertex};
 use glam::DVec3;
@@ -115,9 +116,7 @@ pub fn no_data_markers(elevations: impl Iterator<Item = f64> + Clone) -> Vec<f64
 }
 
 fn range_of(elevations: impl Iterator<Item = f64>) -> (f64, f64) {
-    elevations
-        .filter(|z| z.abs() < NO_DATA_MAGNITUDE && !NO_DATA.contains(z))
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), z| (lo.min(z), hi.max(z)))
+    range(elevations.filter(|z| z.abs() < NO_DATA_MAGNITUDE && !NO_DATA.contains(z)))
 }
 
 fn is_no_data(z: f64, (lo, hi): (f64, f64)) -> bool {

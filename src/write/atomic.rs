@@ -83,7 +83,8 @@ pub enum Delivery {
 ///
 /// A file is written under a temporary name in the folder of its final one and renamed by [`Outputs::commit`]; dropping
 /// `Outputs` without a commit leaves nothing behind and touches no existing file. Streams ([`Target::is_stream`]) get their
-/// bytes at once and cannot be taken back. A new file gets the permissions a plain create would give, a replaced one keeps its own.
+/// bytes at once and cannot be taken back. A new file gets the permissions a plain create would give, a replaced one keeps its
+/// own.
 #[derive(Debug)]
 pub struct Outputs {
     slots: Vec<Slot>,

@@ -18,8 +18,8 @@ pub struct Digest {
 /// Blocks that may wait for the hash before the writer waits too.
 const WAITING: usize = 16;
 
-/// Writes by `fill` to `sink`, and takes the hash of what is written on a thread of its own: it would cost a fast format a quarter of
-/// its speed, and more on processors without instructions for it.
+/// Writes by `fill` to `sink`, and takes the hash of what is written on a thread of its own: it would cost a fast format a
+/// quarter of its speed, and more on processors without instructions for it.
 ///
 /// Blocks are those `fill` writes: it should gather small ones before.
 ///

@@ -1,6 +1,7 @@
-//! GeoTIFF rasters: one band of double precision, packed with deflate, in strips (OGC GeoTIFF 1.1; TIFF 6.0; predictor 3 of Adobe's
-//! TIFF Technical Note 3).
+//! GeoTIFF rasters: one band of double precision, packed with deflate, in strips (OGC GeoTIFF 1.1; TIFF 6.0; predictor 3 of
+//! Adobe's TIFF Technical Note 3).
 
+use super::crs::plan_epsg;
 use super::raster::{Anchor, GridLayout, Reference};
 use super::{EncodeError, GENERATOR};
 use crate::model::LengthUnit;
@@ -96,9 +97,9 @@ pub fn write_geotiff(
     Ok(())
 }
 
-/// Packs a strip. Of each row first come the highest bytes of all its values, then the second ones and so on, and of all these the
-/// difference from the byte before: heights of neighbours agree in their first bytes, which is all that packs in doubles. What is
-/// left packs no better with more effort.
+/// Packs a strip. Of each row first come the highest bytes of all its values, then the second ones and so on, and of all these
+/// the difference from the byte before: heights of neighbours agree in their first bytes, which is all that packs in doubles.
+/// What is left packs no better with more effort.
 fn pack(values: &[f64], columns: usize) -> std::io::Result<Vec<u8>> {
     const SIZE: usize = size_of::<f64>();
     let mut encoder = ZlibEncoder::new(Vec::with_capacity(SIZE * values.len()), Compression::fast());
@@ -124,7 +125,7 @@ fn keys(reference: &Reference<'_>) -> Vec<u32> {
     const PROJECTED: u32 = 1;
     const AREAS: u32 = 1;
     const USER_DEFINED: u32 = 32767;
-    let code = reference.crs.and_then(epsg);
+    let code = reference.crs.and_then(plan_epsg);
     let unit = reference.unit.map(|unit| match unit {
         LengthUnit::Metre => 9001,
         LengthUnit::Foot => 9002,
@@ -139,19 +140,6 @@ fn keys(reference: &Reference<'_>) -> Vec<u32> {
     let mut words = vec![1, 1, 1, keys.len() as u32];
     keys.into_iter().for_each(|(key, value)| words.extend([key, 0, 1, value]));
     words
-}
-
-/// The EPSG code a name of a reference system holds: `EPSG:25832`, `urn:ogc:def:crs:EPSG::25832`,
-/// `http://www.opengis.net/def/crs/EPSG/0/25832`. Of several, as in `EPSG:25832+7837`, the first, which is that of the plan.
-fn epsg(crs: &str) -> Option<u32> {
-    const SHORTEST_CODE: usize = 4;
-    /// Codes that GeoTIFF has room for (OGC GeoTIFF 1.1, requirement class 10).
-    const CODES: std::ops::RangeInclusive<u32> = 1024..=32766;
-    let upper = crs.to_ascii_uppercase();
-    let (_, rest) = upper.split_once("EPSG")?;
-    let figures = rest.split(|c: char| !c.is_ascii_digit() && !":/.".contains(c)).next()?;
-    let code = figures.split(|c: char| !c.is_ascii_digit()).find(|digits| digits.len() >= SHORTEST_CODE)?;
-    code.parse().ok().filter(|code| CODES.contains(code))
 }
 
 /// Tags in ascending order, and values too long to stand in them.
@@ -228,23 +216,6 @@ impl Directory {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn codes_are_found_in_names() {
-        for (name, code) in [
-            ("EPSG:25832", Some(25832)),
-            ("urn:ogc:def:crs:EPSG::25832", Some(25832)),
-            ("urn:ogc:def:crs:EPSG:9.8.15:2193", Some(2193)),
-            ("http://www.opengis.net/def/crs/EPSG/0/25832", Some(25832)),
-            ("epsg:2193+4440", Some(2193)),
-            ("WGS 84 / UTM zone 32N", None),
-            ("EPSG version 9, grid 25832", None),
-            ("EPSG:900913", None),
-            ("", None),
-        ] {
-            assert_eq!(epsg(name), code, "{name}");
-        }
-    }
 
     #[test]
     fn keys_say_what_is_known_and_no_more() {

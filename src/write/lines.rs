@@ -12,7 +12,8 @@ use std::io::Write;
 ///
 /// Properties: `kind` always, `elevation` for level curves, `chain` for hinges and breaklines, `part` for daylight lines.
 /// `crs`, the name of the coordinate system as the input gave it, becomes the (old, widely read) named `crs` member. Features are
-/// sorted by kind, then elevation, and otherwise stay in the given order. One of fewer than two points is no line and is left out.
+/// sorted by kind, then elevation, and otherwise stay in the given order. One of fewer than two points is no line and is left
+/// out.
 ///
 /// # Errors
 /// [`EncodeError::Io`] from the sink, [`EncodeError::NotFinite`] for a coordinate or elevation that is no number.

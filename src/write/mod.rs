@@ -4,6 +4,7 @@
 
 pub mod atomic;
 mod clash;
+mod crs;
 mod digest;
 pub mod dxf;
 pub mod error;

@@ -55,10 +55,10 @@ impl RasterFormat {
         out: &mut (impl Write + ?Sized),
         layout: &GridLayout,
         values: &[f64],
-        reference: &Reference<'_>,
+        #[cfg_attr(not(feature = "geotiff"), allow(unused_variables, reason = "only GeoTIFF tells it"))] reference: &Reference<
+            '_,
+        >,
     ) -> Result<(), EncodeError> {
-        #[cfg(not(feature = "geotiff"))]
-        let _ = reference;
         match self {
             Self::Asc => write_raster(out, layout, values),
             #[cfg(feature = "geotiff")]

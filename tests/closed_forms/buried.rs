@@ -44,8 +44,8 @@ fn hairpin_below_the_limit() {
 }
 
 /// Above the limit: from the start of the line, where it is `Δz − k·d` deep, to where the plane of the upper leg meets the lower
-/// one: `c·d + 2g(l − x) = d·√(k² − g²)`. Its foot, `d·g/√(k² − g²)` up-grade, must still be on the leg. The slope that frees it is
-/// that between the two ends, `Δz/d`: any other pair is further apart or less steep.
+/// one: `c·d + 2g(l − x) = d·√(k² − g²)`. Its foot, `d·g/√(k² − g²)` up-grade, must still be on the leg. The slope that frees it
+/// is that between the two ends, `Δz/d`: any other pair is further apart or less steep.
 #[test]
 fn hairpin_above_the_limit() {
     let hairpin = Hairpin { l: 30.0, d: 10.0, g: 0.1, c: 0.2, k: 0.5 };
@@ -80,8 +80,8 @@ fn the_free_slope_is_the_limit() {
     }
 }
 
-/// Roads that cross in plan, the upper one `h` higher with gradient `g`, the lower one with gradient `c`. The upper one's planes fall
-/// by `√(k² − g²)` a unit aside; along the lower line at the crossing angle 90°: `c·x = h − |x|·√(k² − g²)`.
+/// Roads that cross in plan, the upper one `h` higher with gradient `g`, the lower one with gradient `c`. The upper one's planes
+/// fall by `√(k² − g²)` a unit aside; along the lower line at the crossing angle 90°: `c·x = h − |x|·√(k² − g²)`.
 #[test]
 fn crossing_roads() {
     let (a, b, h, k) = (50.0, 40.0, 6.0, 0.5_f64);

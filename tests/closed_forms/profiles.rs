@@ -66,8 +66,8 @@ fn sloping_segment() {
     }
 }
 
-/// Gradients `g1` before and `g2` after a vertex on a straight line. Strips lean by `sin φ = γ/k` down-grade: at a crest they part
-/// and a sector of `φ1 + φ2` opens on either side.
+/// Gradients `g1` before and `g2` after a vertex on a straight line. Strips lean by `sin φ = γ/k` down-grade: at a crest they
+/// part and a sector of `φ1 + φ2` opens on either side.
 #[test]
 fn crest() {
     let (a, b, g1, g2, top, k, reach) = (30.0, 40.0, 0.3, 0.2, 20.0, 0.5, 6.0);
@@ -124,8 +124,8 @@ fn sag() {
     }
 }
 
-/// Two level lines `d` apart at different heights meet where `z1 − k·t = z2 − k(d − t)`; beyond their ends, where the distances to
-/// the two end points differ by `(z2 − z1)/k` (a branch of a hyperbola).
+/// Two level lines `d` apart at different heights meet where `z1 − k·t = z2 − k(d − t)`; beyond their ends, where the distances
+/// to the two end points differ by `(z2 − z1)/k` (a branch of a hyperbola).
 #[test]
 fn parallel_lines() {
     let (l, d, k) = (40.0, 12.0, 0.75);

@@ -97,8 +97,8 @@ fn ring_with_a_hole() {
         let open = (a - 2.0 * n * h) * (b - 2.0 * n * h);
         not_above(surface.areas.plan, parallel_area(l * w, 2.0 * (l + w), n * h) - open, n * bound, "plan area");
     });
-    // Inside of the polygon the slopes run from both rings towards each other. They meet nowhere at this depth: the floor is what is
-    // left of the rectangle, less all within n·d of the hole.
+    // Inside of the polygon the slopes run from both rings towards each other. They meet nowhere at this depth: the floor is what
+    // is left of the rectangle, less all within n·d of the hole.
     let d = 2.0;
     let inside = Design { side_of_rings: Side::Inside, ..design(k, Extent::Elevation(h - d)) };
     on_both_sheets(&given, &inside, |surface| {

@@ -62,7 +62,8 @@ fn the_same_works_move_nothing_across_the_grid() {
     nothing_is_left(line(), "--slope 1:1.5 --width 6 --crossfall 2.5%");
 }
 
-/// Flatter slopes through the same line cut and fill more. What both builds move adds up to what one moves: only the order differs.
+/// Flatter slopes through the same line cut and fill more. What both builds move adds up to what one moves: only the order
+/// differs.
 #[test]
 fn flatter_slopes_afterwards() {
     for works in [pad(), turned()] {

@@ -161,10 +161,10 @@ fn true_areas() {
     assert!((inside.cut - 300.0).abs() < 1e-9 && (inside.fill - 300.0).abs() < 1e-9);
 }
 
-/// Figures from books. A pond with a bottom of 40 by 100 ft, 12 ft deep, sides 2H:1V (USDA, Agriculture Handbook 590: 97 536 ft³ with
-/// mitred corners; with round ones less by `4(1 − π/4)·24²·12/3`). A round pad of radius 50 at 50 above level ground, slope 0.5 (the
-/// example of GRASS r.earthworks): the frustum `π·50/3·(150² + 150·50 + 50²)`, of which a polygon of 720 corners has all but
-/// the segments of its circles.
+/// Figures from books. A pond with a bottom of 40 by 100 ft, 12 ft deep, sides 2H:1V (USDA, Agriculture Handbook 590: 97 536 ft³
+/// with mitred corners; with round ones less by `4(1 − π/4)·24²·12/3`). A round pad of radius 50 at 50 above level ground, slope
+/// 0.5 (the example of GRASS r.earthworks): the frustum `π·50/3·(150² + 150·50 + 50²)`, of which a polygon of 720 corners has all
+/// but the segments of its circles.
 #[test]
 fn textbook() {
     let level = |half: f64| Ground::grid(about(half), 10, 10, |_, _| 0.0);
@@ -177,7 +177,8 @@ fn textbook() {
     let pad = Site::new(vec![regular(720, 50.0, 50.0)], 0.5, level(200.0));
     let built = build(&pad, "");
     let (found, fill) = (built.figures(), 1_701_696.02);
-    // Inscribed: the pad is short of its circle by 1 − sin(τ/720)/(τ/720), 1.3e-5 of it, over a height of 50; the rest is the bound.
+    // Inscribed: the pad is short of its circle by 1 − sin(τ/720)/(τ/720), 1.3e-5 of it, over a height of 50; the rest is the
+    // bound.
     let short = 1.3e-5 * std::f64::consts::PI * 50.0 * 50.0 * 50.0 * 3.0 + built.number("volumes.error_bound");
     assert!(
         found.fill <= fill + 0.01 && found.fill >= fill - short && found.cut == 0.0,

@@ -28,8 +28,8 @@ fn without() -> Figures {
     planar::pad(&pad().points, Tilt { level: 0.0, gradient: [0.0; 2] }, 1.0, SLOPE)
 }
 
-/// The same with a pyramid beside the middle of the upper side, where the slope is the plane `HIGH − SLOPE·(y − HALF)`: the fill over
-/// its base is replaced by what is over its faces.
+/// The same with a pyramid beside the middle of the upper side, where the slope is the plane `HIGH − SLOPE·(y − HALF)`: the fill
+/// over its base is replaced by what is over its faces.
 fn with_pyramid(y: f64, tip: f64) -> Figures {
     let ground = pyramid(y, tip);
     let slope = |py: f64| HIGH - SLOPE * (py - HALF);
@@ -120,8 +120,8 @@ fn a_hole_at_the_toe_is_filled() {
     agrees("hole at the toe", &site, &build(&site, ""), &expected);
 }
 
-/// Behind a ridge the ground falls to far below what the slope would be. The slope ends on the near side of the ridge, so it makes
-/// no difference whether the valley is there.
+/// Behind a ridge the ground falls to far below what the slope would be. The slope ends on the near side of the ridge, so it
+/// makes no difference whether the valley is there.
 #[test]
 fn a_valley_behind_a_hill_is_not_filled() {
     let profile = |valley: bool| {

@@ -33,9 +33,9 @@ fn report(line: &Path, ground: &Path, more: &str) -> Value {
     json(&scratch.path("r.json"))
 }
 
-/// Sums over rasters of 2, 1 or 0.5 m: coarse and fine differ by about the error of the coarse one. Beside that platforms are counted
-/// there by whole cells, which makes them wider by up to half a cell, and triangulated in another way: `platform` is the share of
-/// all earth for that.
+/// Sums over rasters of 2, 1 or 0.5 m: coarse and fine differ by about the error of the coarse one. Beside that platforms are
+/// counted there by whole cells, which makes them wider by up to half a cell, and triangulated in another way: `platform` is the
+/// share of all earth for that.
 #[track_caller]
 fn near(name: &str, report: &Value, reference: &Value, platform: f64) {
     let [coarse, fine] = [&reference[0], &reference[1]];

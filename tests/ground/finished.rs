@@ -168,8 +168,8 @@ fn areas_are_those_of_the_mesh() {
     });
 }
 
-/// Pieces of the daylight line, cut and fill, join to closed loops, and every point of them lies on the ground, on the mesh of the
-/// works, and on the sheet of the formula.
+/// Pieces of the daylight line, cut and fill, join to closed loops, and every point of them lies on the ground, on the mesh of
+/// the works, and on the sheet of the formula.
 #[test]
 fn daylight_is_on_both() {
     each(|name, site, built| {

@@ -24,8 +24,8 @@ fn others(built: &Built) -> Vec<(&'static str, f64, i32)> {
     .to_vec()
 }
 
-/// How many chords a cone has depends on how far slopes might reach, which is judged on the ground as it stands. Chords within 1e-5
-/// keep figures within the bar.
+/// How many chords a cone has depends on how far slopes might reach, which is judged on the ground as it stands. Chords within
+/// 1e-5 keep figures within the bar.
 fn sites() -> Vec<(&'static str, Site)> {
     let all =
         [("road", road(2, 9)), ("other road", road(6, 12)), ("pad", pad(3, 6, 0.3)), ("pad on level ground", pad(4, 8, 0.0))];

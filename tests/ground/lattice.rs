@@ -1,5 +1,5 @@
-//! Everything on a lattice: ground of steps of 1 on cells of 4, lines at whole coordinates and heights, slopes of 1:2 and 1:1. Vertices
-//! meet vertices, edges run along edges, slopes lie in the ground, and the works touch themselves.
+//! Everything on a lattice: ground of steps of 1 on cells of 4, lines at whole coordinates and heights, slopes of 1:2 and 1:1.
+//! Vertices meet vertices, edges run along edges, slopes lie in the ground, and the works touch themselves.
 
 use crate::common::build::{open, rectangle};
 use crate::common::lines::Random;
@@ -45,8 +45,8 @@ fn figures_and_meshes_agree() {
     }
 }
 
-/// With the brute force too, but for lines with a vertex exactly in the ground: whether works that touch the line in that point alone
-/// belong to it, no raster can tell.
+/// With the brute force too, but for lines with a vertex exactly in the ground: whether works that touch the line in that point
+/// alone belong to it, no raster can tell.
 #[test]
 fn brute_force_agrees() {
     let mut count = 0;

@@ -7,7 +7,8 @@
 //!
 //! * the strip of a segment from `H₀` to `H₁` of one sign is a quadrilateral in plan, with heights `H₀, H₁, 0, 0`: the difference
 //!   of two planes, summed over two triangles. A segment that passes through the ground is split there;
-//! * the sector about a corner has `∫∫ (H − q·r) r dr dθ = ∫ H³/(6q²) dθ` of volume and `∫ H²/(2q²) dθ` of area. `1/q²` is smooth;
+//! * the sector about a corner has `∫∫ (H − q·r) r dr dθ = ∫ H³/(6q²) dθ` of volume and `∫ H²/(2q²) dθ` of area. `1/q²` is
+//!   smooth;
 //! * the platform is a polygon with linear heights, split where they change sign.
 //!
 //! Nothing overlaps as long as every corner opens: convex in plan, with gradients that do not turn the rulings back.
@@ -170,10 +171,10 @@ fn level_ground() {
     found.near(&Figures { cut: 0.0, fill, cut_area: 0.0, fill_area }, 1e-13, "pad on level ground");
 }
 
-/// A line without width along a cross-fall `c`, `h` above the ground: in section a triangle with its apex `h` above a sloping base,
-/// `k·h²/(k² − c²)`. The two ends together make one cone of apex height `h` over an ellipse in plan with eccentricity `e = c/k`
-/// and parameter `p = h/k` (a conic with its focus at the end of the line): area `π·p²/(1 − e²)^(3/2)`, volume a third of that
-/// times `h`, whatever plane cuts the cone.
+/// A line without width along a cross-fall `c`, `h` above the ground: in section a triangle with its apex `h` above a sloping
+/// base, `k·h²/(k² − c²)`. The two ends together make one cone of apex height `h` over an ellipse in plan with eccentricity `e =
+/// c/k` and parameter `p = h/k` (a conic with its focus at the end of the line): area `π·p²/(1 − e²)^(3/2)`, volume a third of
+/// that times `h`, whatever plane cuts the cone.
 #[test]
 fn cross_fall() {
     let (l, h, k, c) = (40.0, 3.0, 0.5, 0.2_f64);

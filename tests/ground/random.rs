@@ -24,8 +24,8 @@ fn hills(random: &mut Random, tilt: f64, steep: f64) -> impl Fn(f64, f64) -> f64
     }
 }
 
-/// A road without width over rolling ground, in and out of it: `n` segments of 9 each that bend by up to 15°, at the height of the
-/// ground plus a wave of the road, gradients up to 0.15.
+/// A road without width over rolling ground, in and out of it: `n` segments of 9 each that bend by up to 15°, at the height of
+/// the ground plus a wave of the road, gradients up to 0.15.
 pub(crate) fn road(seed: u64, n: usize) -> Site {
     let random = &mut Random::new(seed);
     let height = hills(random, 0.05, 0.12);

@@ -12,9 +12,9 @@ use crate::tin::{Ground, about};
 const EXACT: f64 = 1e-9;
 
 /// A dam across a valley with sides `m₁` and `m₂`, `d` deep, whose crest of width `w` ends exactly where it meets the sides, at
-/// `x = −d/m₁` and `x = d/m₂`. The ground rises from there, so nothing reaches beyond the ends: no cones. In plan the works are the
-/// crest and on each side a triangle over its length, `d/k` deep, with heights that fall from `d` at the bottom of the valley to
-/// nought at its three corners: `a = d/m₁ + d/m₂`, fill `w·a·d/2 + 2·(a·d/k/2)·d/3` over an area of `w·a + a·d/k`.
+/// `x = −d/m₁` and `x = d/m₂`. The ground rises from there, so nothing reaches beyond the ends: no cones. In plan the works are
+/// the crest and on each side a triangle over its length, `d/k` deep, with heights that fall from `d` at the bottom of the valley
+/// to nought at its three corners: `a = d/m₁ + d/m₂`, fill `w·a·d/2 + 2·(a·d/k/2)·d/3` over an area of `w·a + a·d/k`.
 fn dam([m1, m2]: [f64; 2], d: f64, w: f64, k: f64) -> Figures {
     let a = d / m1 + d / m2;
     Figures { cut: 0.0, fill: w * a * d / 2.0 + a * d * d / (3.0 * k), cut_area: 0.0, fill_area: w * a + a * d / k }
@@ -91,8 +91,8 @@ fn strips_by_closed_form() {
     }
 }
 
-/// Rulings of a level line run square to it, so a stretch inside has the section times its length, to the last digits. What is over
-/// at both ends are the cones, half each.
+/// Rulings of a level line run square to it, so a stretch inside has the section times its length, to the last digits. What is
+/// over at both ends are the cones, half each.
 #[test]
 fn stations_of_a_straight_line() {
     for (w, h) in STRIPS {
@@ -149,8 +149,8 @@ fn strip(w: f64, h: f64, length: f64) -> Figures {
     Figures { cut, fill, cut_area, fill_area }
 }
 
-/// Ground parallel to the slope at first, then level. The fill is a layer of thickness 1 over the slope of length 6, and a triangle
-/// from there: `k·t = 3 + 1` at `t = 8`. Two lengths again, to be rid of the ends.
+/// Ground parallel to the slope at first, then level. The fill is a layer of thickness 1 over the slope of length 6, and a
+/// triangle from there: `k·t = 3 + 1` at `t = 8`. Two lengths again, to be rid of the ends.
 #[test]
 fn ground_parallel_to_the_slope() {
     let [short, long] = [20.0, 60.0].map(|length| build(&layered(length), "").figures());
@@ -173,11 +173,11 @@ fn layered(length: f64) -> Site {
     Site::new(vec![rectangle([0.0, -6.0, 1.0], length, 6.0)], k, ground)
 }
 
-/// A ring with a hole on ground that lies at the level of the platform, except for a square basin in the hole, side `a`: the edge of
-/// the hole is the rim of the basin, whose sides are as steep as 1 down to a floor at depth `d`. Slopes run down from the edge into
-/// the basin. In section from the rim there is fill between slope `k·t` and ground `t` up to `t = d`, then between slope and floor up
-/// to `t = d/k`. Corners are re-entrant, with valleys at 45°: at distance `t` the slope is `4(a − 2t)` long. So
-/// `V = ∫₀ᵈ (1 − k)t·4(a − 2t) dt + ∫_d^{d/k} (d − kt)·4(a − 2t) dt`.
+/// A ring with a hole on ground that lies at the level of the platform, except for a square basin in the hole, side `a`: the edge
+/// of the hole is the rim of the basin, whose sides are as steep as 1 down to a floor at depth `d`. Slopes run down from the edge
+/// into the basin. In section from the rim there is fill between slope `k·t` and ground `t` up to `t = d`, then between slope and
+/// floor up to `t = d/k`. Corners are re-entrant, with valleys at 45°: at distance `t` the slope is `4(a − 2t)` long. So `V = ∫₀ᵈ
+/// (1 − k)t·4(a − 2t) dt + ∫_d^{d/k} (d − kt)·4(a − 2t) dt`.
 fn basin(a: f64, d: f64, k: f64) -> Figures {
     let n = 1.0 / k;
     let first = (1.0 - k) * 4.0 * (a * d * d / 2.0 - 2.0 * d * d * d / 3.0);

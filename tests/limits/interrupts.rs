@@ -17,8 +17,8 @@ const JOB: &str = "build road.csv --width 4 --slope 1:1.5 --terrain ground.ply -
 
 const SIGNALS: [(Signal, i32); 3] = [(Signal::INT, 2), (Signal::TERM, 15), (Signal::HUP, 1)];
 
-/// The program, with signals as in a terminal: what is started in the background, or by `nohup`, ignores some of them, and so would
-/// what the tests start. (GNU's `env` can do this.)
+/// The program, with signals as in a terminal: what is started in the background, or by `nohup`, ignores some of them, and so
+/// would what the tests start. (GNU's `env` can do this.)
 fn signalled(site: &Site, arguments: &str) -> Command {
     let plain = site.program(arguments);
     let with_defaults = |program: &OsStr| {

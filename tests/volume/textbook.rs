@@ -94,8 +94,8 @@ fn cell(side: f64, ground: [f64; 4], design: f64) -> [f64; 2] {
 /// its triangles' corners.
 #[test]
 fn borrow_cells() {
-    // 50 × 50 ft, corners 87.6, 87.6, 87.6, 88.6, pad at 90: heights 2.4 (three times) and 1.4. Across the odd corner both triangles
-    // have it: 2500·6.2/3; beside it one has: 1250·(7.2 + 6.2)/3.
+    // 50 × 50 ft, corners 87.6, 87.6, 87.6, 88.6, pad at 90: heights 2.4 (three times) and 1.4. Across the odd corner both
+    // triangles have it: 2500·6.2/3; beside it one has: 1250·(7.2 + 6.2)/3.
     let [along, across] = cell(50.0, [87.6, 87.6, 87.6, 88.6], 90.0);
     near(along, 1250.0 * (7.2 + 6.2) / 3.0, 1e-13);
     near(across, 2500.0 * 6.2 / 3.0, 1e-13);

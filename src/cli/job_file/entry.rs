@@ -1,6 +1,6 @@
 //! TOML → options, each with its place.
 
-use super::super::checks::UsageErrors;
+use super::super::usage::UsageErrors;
 use super::INPUT;
 use super::nearest::nearest;
 use clap::{Arg, ArgAction, Id};

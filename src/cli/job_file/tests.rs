@@ -53,7 +53,7 @@ fn arguments_win() {
 /// Every option of `build` is a key; the types come from the parser.
 #[test]
 fn no_option_is_missing() {
-    let command = build();
+    let command = declared();
     let mut count = 0;
     for arg in command.get_arguments().filter(|arg| !arg.is_global_set()) {
         let Some(long) = arg.get_long() else { continue };

@@ -24,7 +24,8 @@ pub(in crate::ground) fn split(corners: &[Corner], station: f64, before: &mut Ve
     }
 }
 
-/// The point of an edge at a station. From the lower to the higher end, whichever way the edge runs: neighbours get the same bits.
+/// The point of an edge at a station. From the lower to the higher end, whichever way the edge runs: neighbours get the same
+/// bits.
 fn between(a: &Corner, b: &Corner, station: f64) -> Corner {
     let (low, high) = if a.station < b.station { (a, b) } else { (b, a) };
     let share = (station - low.station) / (high.station - low.station);

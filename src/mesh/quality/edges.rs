@@ -2,6 +2,7 @@
 
 use super::faces::{Faces, Facing};
 use super::finding::{Collector, Kind};
+use crate::kernel::union::Union;
 
 /// An edge with one triangle, directed so that the triangle, seen from above and turned up, lies on its left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -39,7 +40,9 @@ impl Edges {
                 open.push(Open { from, to, face: only / 3 });
                 return;
             }
-            sides.windows(2).for_each(|w| pieces.join(w[0] / 3, w[1] / 3));
+            for w in sides.windows(2) {
+                pieces.join(w[0] / 3, w[1] / 3);
+            }
             let (several, same) = (sides.len() > 2, sides.len() == 2 && forward(sides[0]) == forward(sides[1]));
             if several || same {
                 let collector = if several { &mut non_manifold } else { &mut orientation };
@@ -103,27 +106,4 @@ fn pinched(faces: &Faces<'_>, open: &[Open], keep: usize) -> Collector {
         found.add(run.len() as f64, || faces.place(faces.point(run[0]), &[], &run[..1]));
     }
     found
-}
-
-/// Sets that are joined: each known by its least member.
-pub(super) struct Union(Vec<u32>);
-
-impl Union {
-    pub(super) fn new(count: usize) -> Self {
-        Self((0..count as u32).collect())
-    }
-
-    pub(super) fn root(&mut self, mut i: u32) -> u32 {
-        while self.0[i as usize] != i {
-            let up = self.0[self.0[i as usize] as usize];
-            self.0[i as usize] = up;
-            i = up;
-        }
-        i
-    }
-
-    pub(super) fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
 }

@@ -1,10 +1,11 @@
 //! Where triangles meet without being joined: T-junctions and cracks.
 
-use super::edges::{Edges, Open, Union};
+use super::edges::{Edges, Open};
 use super::faces::Faces;
 use super::finding::{Collector, Kind};
 use crate::kernel::orientation::{Turn, turn};
 use crate::kernel::segment_tree::SegmentTree;
+use crate::kernel::union::Union;
 use glam::DVec2;
 use rustc_hash::FxHashMap;
 

@@ -1,6 +1,6 @@
 //! The report of a design on existing ground.
 
-use super::{certificate, input, line_figures, surface_figures, warnings};
+use super::{certificate, input, line_figures, surface_figures};
 use crate::ground::{Ground, section_slope};
 use crate::model::{Design, Line, Note, Sheet};
 use crate::pipeline::BuildJob;
@@ -8,7 +8,7 @@ use crate::read::Source;
 use crate::report::{
     Balance, BulkingFigures, Daylight, Depths, DesignFigures, ExtentFigures, FinishedFigures, GroundAreas, METHOD, METHOD_TEXT,
     Reference, Report, SCHEMA, SIGN_RULE, SectionSlopes, Slopes, TerrainFigures, Timing, Tool, Units, VolumeParts, Volumes,
-    station_rows,
+    Warning, station_rows,
 };
 
 /// What the design was built from.
@@ -86,7 +86,7 @@ pub(in crate::pipeline) fn ground_report(
             .finished
             .as_ref()
             .map(|tin| FinishedFigures { vertices: tin.vertices.len(), triangles: tin.triangles.len() }),
-        warnings: warnings(notes),
+        warnings: Warning::all(notes),
         run: None,
         result: None,
         timing: Timing::default(),

@@ -1,8 +1,8 @@
 //! AutoCAD DXF: lines and ground, from text and binary files of all releases.
 //!
-//! A drawing is a list of pairs: a group code, which says what the value is, and the value (Autodesk, "DXF Reference"). It is read
-//! through twice where it lies: once for what it holds ([`index::Index`]), then for its entities ([`walk`]), those of blocks as
-//! often as the blocks are inserted. Nothing is kept but what is asked for, and no value is looked at that is not needed.
+//! A drawing is a list of pairs: a group code, which says what the value is, and the value (Autodesk, "DXF Reference"). It is
+//! read through twice where it lies: once for what it holds ([`index::Index`]), then for its entities ([`walk`]), those of blocks
+//! as often as the blocks are inserted. Nothing is kept but what is asked for, and no value is looked at that is not needed.
 
 mod bulge;
 mod chain;

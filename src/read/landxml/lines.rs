@@ -162,104 +162,121 @@ impl<'a> Maker<'a> {
 
     /// One element of the file as pieces: several, if it is a list of points.
     fn pieces(&self, part: &Part, worst: &mut Option<Worst>) -> Result<Vec<Piece>, ReadError> {
-        let plan = self.scale.plan;
-        let declared = part.length.map(|length| length * plan);
-        let mut check = |misfit: Misfit, what: &'static str| -> Result<(), ReadError> {
-            if misfit.size() > REFUSED.0 && misfit.size() > REFUSED.1 * misfit.given {
-                let figures =
-                    format!("{what} by its coordinates is {:.4}, by its other figures {:.4}", misfit.given, misfit.computed);
-                return Err(self.refuse(
-                    "an element contradicts itself",
-                    part.at,
-                    figures,
-                    "check its points, radii, length and rot",
-                ));
-            }
-            if misfit.size() > worst.as_ref().map_or(TOLD, |worst| worst.misfit.size()) {
-                *worst = Some(Worst { misfit, what, at: part.at });
-            }
-            Ok(())
-        };
-        let (element, heights) = match &part.shape {
-            Shape::Points(points) => {
-                let points = points.iter().map(|point| self.point(point, part.at)).collect::<Result<Vec<_>, _>>()?;
-                let straight = |(from, to): (&Placed, &Placed)| Piece {
-                    element: Element::Straight { from: from.0, to: to.0 },
-                    heights: [from.1, to.1],
-                };
-                let pieces: Vec<Piece> = points.iter().zip(points.iter().skip(1)).map(straight).collect();
-                if let ([piece], Some(declared)) = (pieces.as_slice(), declared) {
-                    check(Misfit { given: piece.element.length(), computed: declared }, "the length of a line")?;
-                }
-                return Ok(pieces);
-            }
+        let ends = |from: &Point, to: &Point| Ok::<_, ReadError>([self.point(from, part.at)?, self.point(to, part.at)?]);
+        let ([(_, a), (_, b)], element) = match &part.shape {
+            Shape::Points(points) => return self.straights(part, points, worst),
             Shape::Curve { from, to, centre, radius, left } => {
-                let ((from, a), (to, b)) = (self.point(from, part.at)?, self.point(to, part.at)?);
-                let radius = radius.map(|radius| radius.abs() * plan);
-                let half_turn = |radius: f64| declared.is_some_and(|length| length > std::f64::consts::PI * radius);
-                let element = match (centre, radius) {
-                    (Some(centre), _) => {
-                        let (centre, _) = self.point(centre, part.at)?;
-                        let mean = 0.5 * (centre.distance(from) + centre.distance(to));
-                        let (element, misfit) = Element::arc(centre, from, to, *left, half_turn(mean));
-                        check(misfit, "the radius of a curve")?;
-                        if let Some(radius) = radius {
-                            check(Misfit { given: mean, computed: radius }, "the radius of a curve")?;
-                        }
-                        Some(element)
-                    }
-                    (None, Some(radius)) => Element::arc_of_radius(radius, from, to, *left, half_turn(radius)),
-                    (None, None) => None,
-                };
-                let Some(element) = element else {
-                    let figures =
-                        format!("its ends are {:.4} apart, its radius is {:.4}", from.distance(to), radius.unwrap_or(0.0));
-                    return Err(self.refuse(
-                        "no circle goes through a curve",
-                        part.at,
-                        figures,
-                        "check its points and its radius",
-                    ));
-                };
-                if let Some(declared) = declared {
-                    check(Misfit { given: element.length(), computed: declared }, "the length of a curve")?;
-                }
-                (element, [a, b])
+                let ends = ends(from, to)?;
+                (ends, self.curve(part, ends.map(|end| end.0), centre.as_ref(), *radius, *left, worst)?)
             }
             Shape::Spiral { from, to, corner, radii, left } => {
-                let ((from, a), (to, b)) = (self.point(from, part.at)?, self.point(to, part.at)?);
-                let turn = if *left { 1.0 } else { -1.0 };
-                let curvature = radii.map(|radius| turn / (radius * plan));
-                let length = declared.unwrap_or(0.0);
-                let Some((element, misfit)) = Element::clothoid(from, to, length, curvature) else {
-                    let figures =
-                        format!("length {length}, radii {} and {}, ends {:.4} apart", radii[0], radii[1], from.distance(to));
-                    return Err(self.refuse(
-                        "no clothoid goes through a spiral",
-                        part.at,
-                        figures,
-                        "check its points, radii and length",
-                    ));
-                };
-                check(misfit, "the chord of a spiral")?;
-                if let Some(corner) = corner {
-                    let (corner, _) = self.point(corner, part.at)?;
-                    let ahead = (corner - from).normalize_or_zero();
-                    if ahead != DVec2::ZERO && ahead.dot(element.direction(0.0)) < TANGENT {
-                        let angle = ahead.angle_to(element.direction(0.0)).to_degrees();
-                        let figures = format!("its tangent and the line to its <PI> are {:.3}° apart", angle.abs());
-                        return Err(self.refuse(
-                            "an element contradicts itself",
-                            part.at,
-                            figures,
-                            "check its points, radii, length and rot",
-                        ));
-                    }
-                }
-                (element, [a, b])
+                let ends = ends(from, to)?;
+                (ends, self.spiral(part, ends.map(|end| end.0), corner.as_ref(), *radii, *left, worst)?)
             }
         };
-        Ok(vec![Piece { element, heights }])
+        Ok(vec![Piece { element, heights: [a, b] }])
+    }
+
+    fn straights(&self, part: &Part, points: &[Point], worst: &mut Option<Worst>) -> Result<Vec<Piece>, ReadError> {
+        let points = points.iter().map(|point| self.point(point, part.at)).collect::<Result<Vec<_>, _>>()?;
+        let straight = |(from, to): (&Placed, &Placed)| Piece {
+            element: Element::Straight { from: from.0, to: to.0 },
+            heights: [from.1, to.1],
+        };
+        let pieces: Vec<Piece> = points.iter().zip(points.iter().skip(1)).map(straight).collect();
+        if let ([piece], Some(declared)) = (pieces.as_slice(), self.declared(part)) {
+            let misfit = Misfit { given: piece.element.length(), computed: declared };
+            self.judge(misfit, "the length of a line", part, worst)?;
+        }
+        Ok(pieces)
+    }
+
+    fn curve(
+        &self,
+        part: &Part,
+        [from, to]: [DVec2; 2],
+        centre: Option<&Point>,
+        radius: Option<f64>,
+        left: bool,
+        worst: &mut Option<Worst>,
+    ) -> Result<Element, ReadError> {
+        let declared = self.declared(part);
+        let radius = radius.map(|radius| radius.abs() * self.scale.plan);
+        let half_turn = |radius: f64| declared.is_some_and(|length| length > std::f64::consts::PI * radius);
+        let element = match (centre, radius) {
+            (Some(centre), _) => {
+                let (centre, _) = self.point(centre, part.at)?;
+                let mean = 0.5 * (centre.distance(from) + centre.distance(to));
+                let (element, misfit) = Element::arc(centre, from, to, left, half_turn(mean));
+                self.judge(misfit, "the radius of a curve", part, worst)?;
+                if let Some(radius) = radius {
+                    self.judge(Misfit { given: mean, computed: radius }, "the radius of a curve", part, worst)?;
+                }
+                Some(element)
+            }
+            (None, Some(radius)) => Element::arc_of_radius(radius, from, to, left, half_turn(radius)),
+            (None, None) => None,
+        };
+        let Some(element) = element else {
+            let figures = format!("its ends are {:.4} apart, its radius is {:.4}", from.distance(to), radius.unwrap_or(0.0));
+            return Err(self.refuse("no circle goes through a curve", part.at, figures, "check its points and its radius"));
+        };
+        if let Some(declared) = declared {
+            let misfit = Misfit { given: element.length(), computed: declared };
+            self.judge(misfit, "the length of a curve", part, worst)?;
+        }
+        Ok(element)
+    }
+
+    fn spiral(
+        &self,
+        part: &Part,
+        [from, to]: [DVec2; 2],
+        corner: Option<&Point>,
+        radii: [f64; 2],
+        left: bool,
+        worst: &mut Option<Worst>,
+    ) -> Result<Element, ReadError> {
+        let turn = if left { 1.0 } else { -1.0 };
+        let curvature = radii.map(|radius| turn / (radius * self.scale.plan));
+        let length = self.declared(part).unwrap_or(0.0);
+        let Some((element, misfit)) = Element::clothoid(from, to, length, curvature) else {
+            let figures = format!("length {length}, radii {} and {}, ends {:.4} apart", radii[0], radii[1], from.distance(to));
+            return Err(self.refuse("no clothoid goes through a spiral", part.at, figures, "check its points, radii and length"));
+        };
+        self.judge(misfit, "the chord of a spiral", part, worst)?;
+        if let Some(corner) = corner {
+            let (corner, _) = self.point(corner, part.at)?;
+            let ahead = (corner - from).normalize_or_zero();
+            if ahead != DVec2::ZERO && ahead.dot(element.direction(0.0)) < TANGENT {
+                let angle = ahead.angle_to(element.direction(0.0)).to_degrees();
+                let figures = format!("its tangent and the line to its <PI> are {:.3}° apart", angle.abs());
+                return Err(self.contradicts(part, figures));
+            }
+        }
+        Ok(element)
+    }
+
+    /// The length an element declares.
+    fn declared(&self, part: &Part) -> Option<f64> {
+        part.length.map(|length| length * self.scale.plan)
+    }
+
+    /// Refuses figures of an element that contradict each other; keeps the worst of those that nearly do.
+    fn judge(&self, misfit: Misfit, what: &'static str, part: &Part, worst: &mut Option<Worst>) -> Result<(), ReadError> {
+        if misfit.size() > REFUSED.0 && misfit.size() > REFUSED.1 * misfit.given {
+            let (given, computed) = (misfit.given, misfit.computed);
+            let figures = format!("{what} by its coordinates is {given:.4}, by its other figures {computed:.4}");
+            return Err(self.contradicts(part, figures));
+        }
+        if misfit.size() > worst.as_ref().map_or(TOLD, |worst| worst.misfit.size()) {
+            *worst = Some(Worst { misfit, what, at: part.at });
+        }
+        Ok(())
+    }
+
+    fn contradicts(&self, part: &Part, figures: String) -> ReadError {
+        self.refuse("an element contradicts itself", part.at, figures, "check its points, radii, length and rot")
     }
 
     /// A point in the unit of the scale.

@@ -1,8 +1,8 @@
 //! LandXML 1.0 to 2.0 and InfraModel: surfaces as ground, alignments and other lines.
 //!
-//! Elements are known by their local names, so that versions, profiles and prefixes do not matter. Facts about the format are from
-//! the schemas LandXML-1.2.xsd (landxml.org) and inframodel.xsd (buildingSMART Finland): points are northing, easting, elevation;
-//! ids of points are unique in their surface; faces with `i="1"` are not to be seen.
+//! Elements are known by their local names, so that versions, profiles and prefixes do not matter. Facts about the format are
+//! from the schemas LandXML-1.2.xsd (landxml.org) and inframodel.xsd (buildingSMART Finland): points are northing, easting,
+//! elevation; ids of points are unique in their surface; faces with `i="1"` are not to be seen.
 
 mod choose;
 mod coord_geom;

@@ -3,7 +3,8 @@
 use super::{BoundFigures, CheckReport, FindingFigures, PartFigures, PlaceFigures, ShareFigures, SlopesFigures};
 use crate::model::Slope;
 use crate::model::digits::counted;
-use crate::report::page::{Column, Group, Page, Row, printable};
+use crate::model::message::printable;
+use crate::report::page::{Column, Group, Page, Row};
 
 /// Degrees of a bin of the histogram as printed.
 const BIN: usize = 5;

@@ -1,7 +1,7 @@
 //! What differs, for people.
 
 use super::{Change, DiffReport, Step, SurfaceChange};
-use crate::report::page::printable;
+use crate::model::message::printable;
 use serde_json::Value;
 use std::fmt::Write as _;
 

@@ -19,8 +19,8 @@ const MOST_BURIED: usize = 1000;
 /// Most elevations of level curves written out; of more the first and the last.
 const MOST_LEVELS: usize = 24;
 
-/// Writes the report of `build` as a page: figures, drawings and a 3D view, with cross-sections at the stations `asked` for, or at
-/// some if there are none. Times are not in it.
+/// Writes the report of `build` as a page: figures, drawings and a 3D view, with cross-sections at the stations `asked` for, or
+/// at some if there are none. Times are not in it.
 ///
 /// # Errors
 /// [`EncodeError::ReportNotFinite`] as [`crate::report::write_json`]; [`EncodeError::Io`] from the sink.

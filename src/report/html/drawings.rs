@@ -1,8 +1,8 @@
 //! Drawings on the page of `build`.
 
 use crate::ground;
+use crate::model::message::printable;
 use crate::plot::{self, Scene, Style};
-use crate::report::page::printable;
 use crate::report::{DepthPlace, Report};
 use maud::{Markup, PreEscaped, html};
 

@@ -1,7 +1,7 @@
 //! Numbers and tables of the pages.
 
+use crate::model::message::printable;
 use crate::report::Input;
-use crate::report::page::printable;
 use maud::{Markup, html};
 
 /// Digits before the point from which on they are grouped by threes.

@@ -1,8 +1,9 @@
 //! The page around the sections: head, table of contents, foot.
 
 use super::view::View;
+use crate::model::message::printable;
 use crate::plot;
-use crate::report::page::{NOTE, printable};
+use crate::report::page::NOTE;
 use crate::report::{Tool, Warning, WarningKind};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;

@@ -1,6 +1,7 @@
 //! What the report for people says about existing ground.
 
-use crate::report::page::{Column, Group, NAME, NUMBER, Page, Row, printable};
+use crate::model::message::printable;
+use crate::report::page::{Column, Group, NAME, NUMBER, Page, Row};
 use crate::report::{BulkingFigures, CutFillFigures, DepthPlace, Depths, PadRow, Report, SlopeRange, StationRow, Volumes};
 use std::fmt::Write as _;
 

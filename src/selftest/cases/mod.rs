@@ -43,7 +43,8 @@ fn row(figure: &str, formula: &str, value: f64, bound: Bound, got: impl Fn(&[Out
     Row { figure: figure.to_owned(), formula: formula.to_owned(), expected: Expected::Number { value, bound, got } }
 }
 
-/// The greatest value of a measure over all points of the lines of a kind; nothing where there are none, or where it is no number.
+/// The greatest value of a measure over all points of the lines of a kind; nothing where there are none, or where it is no
+/// number.
 fn greatest(outcome: &Outcome, kind: &str, measure: impl Fn([f64; 3]) -> f64) -> Option<f64> {
     let lines = outcome.lines(kind)?;
     let measures: Vec<f64> = lines.into_iter().flatten().map(measure).collect();

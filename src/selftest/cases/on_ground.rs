@@ -74,8 +74,8 @@ fn road() -> Case {
     )
 }
 
-/// A road of constant gradient on level ground. Rulings lean by φ, sin φ = g/k, and are n·h long: over dx of the line the slope holds
-/// cos φ·n·h²/2 dx.
+/// A road of constant gradient on level ground. Rulings lean by φ, sin φ = g/k, and are n·h long: over dx of the line the slope
+/// holds cos φ·n·h²/2 dx.
 fn road_with_gradient() -> Case {
     let (w, g, k, z0, step) = (8.0, 0.05, 0.5, 2.0, 20.0);
     let (n, h1, h2) = (1.0 / k, z0 + 80.0 * g, z0 + 100.0 * g);

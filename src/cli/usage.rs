@@ -1,12 +1,13 @@
 //! Taking down everything wrong with the arguments, so that all of it is told at once.
 
 use super::number::{self, Rule};
-use crate::model::{LengthUnit, Slope};
+use crate::model::{LengthUnit, Slope, message};
 use crate::read::ColumnOrder;
 use crate::report::ReportFormat;
-use crate::write::{Target, UnknownFormat};
-use std::ffi::{OsStr, OsString};
+use crate::write::{self, Target, UnknownFormat};
+use std::ffi::OsString;
 use std::fmt;
+use std::ops::RangeInclusive;
 
 /// The smallest tolerance, height, distance and cell: what coordinates of lines are told apart by.
 pub(super) const LEAST_LENGTH: f64 = crate::validate::MERGE_DISTANCE;
@@ -55,11 +56,7 @@ impl Checks {
 
     pub(super) fn order(&mut self, option: &str, text: Option<&String>) -> Option<ColumnOrder> {
         let text = text?;
-        let result = text.parse::<ColumnOrder>();
-        self.take(result.map_err(|error| match error.split_once("; ") {
-            Some((what, help)) => format!("{what}\n  --> {option} {text}\n   = help: {help}"),
-            None => format!("{error}\n  --> {option} {text}"),
-        }))
+        self.take(text.parse::<ColumnOrder>().map_err(|error| advised(&error, option, text)))
     }
 
     pub(super) fn slope(&mut self, option: &str, text: Option<&String>) -> Option<Slope> {
@@ -79,23 +76,54 @@ impl Checks {
 
     pub(super) fn unit(&mut self, text: Option<&String>) -> Option<LengthUnit> {
         let text = text?;
-        self.take(text.parse::<LengthUnit>().map_err(|error| match error.split_once("; ") {
-            Some((what, help)) => format!("{what}\n  --> --units {text}\n   = help: {help}"),
-            None => error,
-        }))
+        self.take(text.parse::<LengthUnit>().map_err(|error| advised(&error, "--units", text)))
     }
 
-    /// Where reports go that are JSON or text: to standard output as text besides, unless quiet.
+    /// A whole number of `things`.
+    pub(super) fn whole(
+        &mut self,
+        option: &str,
+        text: Option<&String>,
+        things: &str,
+        range: RangeInclusive<usize>,
+    ) -> Option<usize> {
+        text.and_then(|text| self.take(number::whole(option, text, things, range)))
+    }
+
+    /// Outputs, each in the format its name ends in.
+    pub(super) fn outputs<F>(
+        &mut self,
+        arguments: &[OsString],
+        format: impl Fn(&Target) -> Result<F, UnknownFormat>,
+    ) -> Vec<(Target, F)> {
+        let with_format = |target: Target| self.format(format(&target)).map(|format| (target, format));
+        targets(arguments).into_iter().filter_map(with_format).collect()
+    }
+
+    /// Outputs whose names must all end in one of `known`.
+    pub(super) fn ending(
+        &mut self,
+        arguments: &[OsString],
+        what: &'static str,
+        known: &[&str],
+        phrase: &'static str,
+    ) -> Vec<Target> {
+        let targets = targets(arguments);
+        for target in &targets {
+            self.format(ending(target, what, known, phrase));
+        }
+        targets
+    }
+
+    /// Where reports go: to standard output as text besides, unless quiet.
+    pub(super) fn reports(&mut self, arguments: &[OsString], quiet: bool) -> Vec<(Target, ReportFormat)> {
+        shown(self.outputs(arguments, ReportFormat::of), quiet)
+    }
+
+    /// The same for reports that are JSON or text.
     pub(super) fn plain_reports(&mut self, arguments: &[OsString], quiet: bool) -> Vec<(Target, ReportFormat)> {
-        let mut reports = Vec::new();
-        for target in targets(arguments) {
-            self.format(ending(&target, "report", &["json", "txt"], "`.json` or `.txt`"));
-            reports.extend(ReportFormat::of(&target).ok().map(|format| (target, format)));
-        }
-        if !reports.iter().any(|(target, _)| *target == Target::Stdout) && !quiet {
-            reports.push((Target::Stdout, ReportFormat::Text));
-        }
-        reports
+        let plain = |target: &Target| ending(target, "report", &["json", "txt"], "`.json` or `.txt`");
+        shown(self.outputs(arguments, |target| plain(target).and_then(|()| ReportFormat::of(target))), quiet)
     }
 
     pub(super) fn finish<T>(self, job: Option<T>) -> Result<T, UsageErrors> {
@@ -108,8 +136,19 @@ impl Checks {
 
 /// A message with the option it is about below its first line.
 pub(super) fn placed(message: &str, option: &str, text: &str) -> String {
-    let (what, rest) = message.split_once('\n').unwrap_or((message, ""));
-    format!("{what}\n  --> {option} {text}\n{rest}").trim_end().to_owned()
+    message::placed(message, [format!("{option} {text}")])
+}
+
+/// The same for a message on one line that ends in a semicolon and what mends it.
+fn advised(message: &str, option: &str, text: &str) -> String {
+    placed(&message.replacen("; ", "\n   = help: ", 1), option, text)
+}
+
+/// Adds the text report that is seen where nothing else goes to standard output, unless quiet.
+fn shown(mut reports: Vec<(Target, ReportFormat)>, quiet: bool) -> Vec<(Target, ReportFormat)> {
+    let is_used = reports.iter().any(|(target, _)| *target == Target::Stdout);
+    reports.extend((!is_used && !quiet).then_some((Target::Stdout, ReportFormat::Text)));
+    reports
 }
 
 /// Where arguments lead.
@@ -120,7 +159,6 @@ pub(super) fn targets(arguments: &[OsString]) -> Vec<Target> {
 /// Refuses names of files that do not end in one of `known`; streams have any name.
 pub(super) fn ending(target: &Target, what: &'static str, known: &[&str], phrase: &'static str) -> Result<(), UnknownFormat> {
     let Target::File(path) = target else { return Ok(()) };
-    let found = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
-    let fits = found.is_some_and(|found| known.contains(&found.as_str()));
+    let fits = write::ending(path).is_some_and(|found| known.contains(&found.as_str()));
     if fits || target.is_stream() { Ok(()) } else { Err(UnknownFormat { what, path: path.clone(), known: phrase }) }
 }
