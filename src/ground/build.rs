@@ -206,7 +206,7 @@ impl<'a> Site<'a> {
             })
         };
         match assemble(&works, &nodes) {
-            Err(GroundError::Cut { .. } | GroundError::Unsound { .. }) => {
+            Err(e @ (GroundError::Cut { .. } | GroundError::Unsound { .. })) => {
                 nodes.snap(&shape, &patch, &mut works);
                 assemble(&works, &nodes).map_err(|error| open_mesh(error, &shape, &works))
             }

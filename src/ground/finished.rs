@@ -89,7 +89,11 @@ fn remainder(
     whole: bool,
 ) -> Vec<[u32; 2]> {
     let t = patch.triangles[b as usize];
-    let ends = |j: usize| [t[j], t[(j + 1) % 3]];
+    let paths = [0, 1, 2_usize].map(|j| {
+        let labels = works.on_ground.get(&patch.edge(b, j as u8)).map_or(&[][..], |list| list);
+        let ids = labels.iter().filter_map(|&label| nodes.meeting(label));
+        Path::new(nodes.along([t[j], t[(j + 1) % 3]].map(|v| nodes.ground(v)), ids))
+    });
     let mut stretches: [Vec<[u32; 2]>; 3] = Default::default();
     let mut edges = Vec::new();
     let (mut corners, mut kept) = (Vec::new(), Vec::new());
@@ -106,7 +110,8 @@ fn remainder(
         for (n, corner) in kept.iter().enumerate() {
             let Some(j) = corner.side.ground else { continue };
             let next = &kept[(n + 1) % kept.len()];
-            stretches[j as usize].push([on_side(corner, nodes, passing), on_side(next, nodes, passing)]);
+            let path = &paths[j as usize];
+            stretches[j as usize].push([path.number(corner, nodes, passing), path.number(next, nodes, passing)]);
         }
     }
     for border in &cut.borders {
@@ -114,35 +119,46 @@ fn remainder(
             edges.extend(nodes.pieces([to, from]));
         }
     }
-    for (j, list) in stretches.iter().enumerate() {
-        let labels = works.on_ground.get(&patch.edge(b, j as u8)).map_or(&[][..], |list| list);
-        let ids = labels.iter().filter_map(|&label| nodes.meeting(label));
-        let path = nodes.along(ends(j).map(|v| nodes.ground(v)), ids);
-        uncovered(&runs(list, passing), &path, &mut edges);
+    for (path, list) in paths.iter().zip(&stretches) {
+        path.uncovered(&runs(list, passing), &mut edges);
     }
     edges
 }
 
-/// Number of a corner on a side of a ground triangle. Vertices of the ground are themselves; a vertex of the design counts only
-/// where it meets the ground.
-fn on_side(corner: &Corner, nodes: &Nodes, passing: &mut Passing) -> u32 {
-    match corner.label {
-        Label::Ground(v) => nodes.ground(v),
-        _ if class(corner.h) == 0 => passing.id(corner),
-        label => passing.place(label),
-    }
+/// A side of a ground triangle with all its vertices.
+struct Path {
+    ids: Vec<u32>,
+    position: FxHashMap<u32, usize>,
 }
 
-/// The edges of `path`, a side with all its vertices, that no stretch from vertex to vertex covers.
-fn uncovered(stretches: &[[u32; 2]], path: &[u32], edges: &mut Vec<[u32; 2]>) {
-    let position: FxHashMap<u32, usize> = path.iter().enumerate().map(|(n, &v)| (v, n)).collect();
-    let mut covered = vec![false; path.len() - 1];
-    for [from, to] in stretches {
-        if let (Some(&from), Some(&to)) = (position.get(from), position.get(to)) {
-            covered[from.min(to)..to.max(from)].iter_mut().for_each(|c| *c = true);
-        }
+impl Path {
+    fn new(ids: Vec<u32>) -> Self {
+        let position = ids.iter().enumerate().map(|(n, &v)| (v, n)).collect();
+        Self { ids, position }
     }
-    edges.extend((0..covered.len()).filter(|&n| !covered[n]).map(|n| [path[n], path[n + 1]]));
+
+    /// Number of a corner on the side. Points under a platform are mere places, also where it lies on the ground: the ground ends
+    /// at its edge.
+    fn number(&self, corner: &Corner, nodes: &Nodes, passing: &mut Passing) -> u32 {
+        let id = match corner.label {
+            Label::Ground(v) => Some(nodes.ground(v)),
+            _ if class(corner.h) == 0 => Some(passing.id(corner)),
+            _ => None,
+        };
+        id.filter(|id| self.position.contains_key(id)).unwrap_or_else(|| passing.place(corner.label))
+    }
+
+    /// The edges that no stretch from vertex to vertex covers.
+    fn uncovered(&self, stretches: &[[u32; 2]], edges: &mut Vec<[u32; 2]>) {
+        let Self { ids, position } = self;
+        let mut covered = vec![false; ids.len() - 1];
+        for [from, to] in stretches {
+            if let (Some(&from), Some(&to)) = (position.get(from), position.get(to)) {
+                covered[from.min(to)..to.max(from)].iter_mut().for_each(|c| *c = true);
+            }
+        }
+        edges.extend((0..covered.len()).filter(|&n| !covered[n]).map(|n| [ids[n], ids[n + 1]]));
+    }
 }
 
 #[cfg(test)]
@@ -152,10 +168,11 @@ mod tests {
     #[test]
     fn free_stretches_of_a_side() {
         let mut edges = Vec::new();
-        uncovered(&[[3, 4], [1, 2]], &[1, 2, 3, 4], &mut edges);
+        let path = Path::new(vec![1, 2, 3, 4]);
+        path.uncovered(&[[3, 4], [1, 2]], &mut edges);
         assert_eq!(edges, [[2, 3]]);
         edges.clear();
-        uncovered(&[], &[1, 2, 3, 4], &mut edges);
+        path.uncovered(&[], &mut edges);
         assert_eq!(edges, [[1, 2], [2, 3], [3, 4]]);
     }
 }
