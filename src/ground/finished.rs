@@ -4,7 +4,7 @@ use super::cell::{Corner, Label, cell, class};
 use super::nodes::Nodes;
 use super::patch::Patch;
 use super::shape::Shape;
-use super::trimmed::{Passing, runs};
+use super::trimmed::{Passing, Path, runs};
 use super::works::{Border, Works, clip, split_sides};
 use crate::mesh::polygon;
 use crate::mesh::region::RegionError;
@@ -111,7 +111,7 @@ fn remainder(
             let Some(j) = corner.side.ground else { continue };
             let next = &kept[(n + 1) % kept.len()];
             let path = &paths[j as usize];
-            stretches[j as usize].push([path.number(corner, nodes, passing), path.number(next, nodes, passing)]);
+            stretches[j as usize].push([number(corner, path, nodes, passing), number(next, path, nodes, passing)]);
         }
     }
     for border in &cut.borders {
@@ -125,54 +125,15 @@ fn remainder(
     edges
 }
 
-/// A side of a ground triangle with all its vertices.
-struct Path {
-    ids: Vec<u32>,
-    position: FxHashMap<u32, usize>,
-}
-
-impl Path {
-    fn new(ids: Vec<u32>) -> Self {
-        let position = ids.iter().enumerate().map(|(n, &v)| (v, n)).collect();
-        Self { ids, position }
-    }
-
-    /// Number of a corner on the side. Points under a platform are mere places, also where it lies on the ground: the ground ends
-    /// at its edge.
-    fn number(&self, corner: &Corner, nodes: &Nodes, passing: &mut Passing) -> u32 {
-        let id = match corner.label {
-            Label::Ground(v) => Some(nodes.ground(v)),
-            _ if class(corner.h) == 0 => Some(passing.id(corner)),
-            _ => None,
-        };
-        id.filter(|id| self.position.contains_key(id)).unwrap_or_else(|| passing.place(corner.label))
-    }
-
-    /// The edges that no stretch from vertex to vertex covers.
-    fn uncovered(&self, stretches: &[[u32; 2]], edges: &mut Vec<[u32; 2]>) {
-        let Self { ids, position } = self;
-        let mut covered = vec![false; ids.len() - 1];
-        for [from, to] in stretches {
-            if let (Some(&from), Some(&to)) = (position.get(from), position.get(to)) {
-                covered[from.min(to)..to.max(from)].iter_mut().for_each(|c| *c = true);
-            }
+/// Number of a corner on a side of a ground triangle. Vertices of the ground are themselves; a vertex of the design counts only where
+/// it meets the ground, and not under a platform: the ground ends at the edge of that.
+fn number(corner: &Corner, path: &Path, nodes: &Nodes, passing: &mut Passing) -> u32 {
+    match corner.label {
+        Label::Ground(v) => path.number(nodes.ground(v), corner, passing),
+        _ if class(corner.h) == 0 => {
+            let id = passing.id(corner);
+            path.number(id, corner, passing)
         }
-        edges.extend((0..covered.len()).filter(|&n| !covered[n]).map(|n| [ids[n], ids[n + 1]]));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn free_stretches_of_a_side() {
-        let mut edges = Vec::new();
-        let path = Path::new(vec![1, 2, 3, 4]);
-        path.uncovered(&[[3, 4], [1, 2]], &mut edges);
-        assert_eq!(edges, [[2, 3]]);
-        edges.clear();
-        path.uncovered(&[], &mut edges);
-        assert_eq!(edges, [[1, 2], [2, 3], [3, 4]]);
+        label => passing.place(label),
     }
 }

@@ -9,7 +9,7 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 /// Vertices closer than this in plan (length units) where design and ground meet become one.
-const WELD: f64 = 2e-8;
+pub(super) const WELD: f64 = 2e-8;
 
 /// Vertex numbers: first those of the design, then those of the patch of ground, then the new ones.
 pub(crate) struct Nodes {
