@@ -412,7 +412,8 @@ impl Bare {
 
     fn note(&self) -> Note {
         let Self { length, all, at } = self;
-        let message = format!("there is no ground under {length:.3} of {all:.3} of the line, first near ({:.3}, {:.3})", at.x, at.y);
+        let message =
+            format!("there is no ground under {length:.3} of {all:.3} of the line, first near ({:.3}, {:.3})", at.x, at.y);
         Note::new("line-uncovered", message)
     }
 }

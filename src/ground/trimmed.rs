@@ -204,7 +204,8 @@ impl Trimmed {
                 let edge = [passing.id(corner), passing.id(next)];
                 if let Some(i) = corner.side.design {
                     let path = &paths[i as usize];
-                    on_sides[i as usize].push([path.number(edge[0], corner, &mut passing), path.number(edge[1], next, &mut passing)]);
+                    on_sides[i as usize]
+                        .push([path.number(edge[0], corner, &mut passing), path.number(edge[1], next, &mut passing)]);
                 } else if corner.side == Side::INSIDE {
                     edges.extend(nodes.pieces(edge));
                 }

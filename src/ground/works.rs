@@ -82,7 +82,8 @@ pub(crate) struct Works {
     /// Works cut off at the edge of the ground: that edge, works on the left.
     pub(crate) rims: Vec<Border>,
     /// Points of the design on the edge of the ground that become vertices, although design and ground do not meet there.
-    pub(crate) above_rim: FxHashMap<Label, DVec3>,
+    /// Each with the vertex of the design there, if there is one.
+    pub(crate) above_rim: FxHashMap<Label, (DVec3, u32)>,
     /// Length of every edge of the line, and how much of it has ground below.
     pub(crate) over_ground: FxHashMap<[u32; 2], [f64; 2]>,
 }
@@ -322,7 +323,7 @@ impl<'a, S: Sink> Flood<'a, S> {
                 self.note(border.a, border.b, corner);
                 continue;
             }
-            self.works.above_rim.entry(corner.label).or_insert_with(|| corner.at.extend(corner.z));
+            self.works.above_rim.entry(corner.label).or_insert_with(|| (corner.at.extend(corner.z), corner.vertex));
             for i in (0..3).filter(|i| corner.on_design & 1 << i != 0) {
                 remember(&mut self.works.on_design, self.shape.edge(border.a, i), corner.label);
             }

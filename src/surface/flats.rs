@@ -1,8 +1,8 @@
 //! Platforms inside rings and floors of pits.
 
-use super::formation::{Roads, Threads};
 use super::SurfaceError;
 use super::buried::{Found, freeing};
+use super::formation::{Roads, Threads};
 use crate::mesh::check::HalfEdges;
 use crate::mesh::region::{self, RegionError};
 use crate::model::{Chain, Design, Extent, Line, Note, Role, Sheet, Side};
@@ -140,7 +140,9 @@ fn platform(line: &Line, network: &Network, slopes: &mut Slopes, outline: Vec<Pi
     }
     let roads = Roads::new(line, network, slopes);
     flats.stations = roads.stations(&threads);
-    let edges: FxHashSet<usize> = outline.iter().map(|piece| piece.edge).collect();
+    // An edge with a platform on either side, as where a road goes on in another, is an outline for both.
+    let own = |edge: &usize| network.edges[*edge].interior != [true; 2];
+    let edges: FxHashSet<usize> = outline.iter().map(|piece| piece.edge).filter(own).collect();
     let mut stripped = vec![false; line.chains.len()];
     for (chain, done) in stripped.iter_mut().enumerate() {
         if let Some(triangles) = roads.strip(chain, &threads, &slopes.points, &edges) {

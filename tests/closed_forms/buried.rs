@@ -169,7 +169,8 @@ fn a_floor_never_passes_over_its_ring() {
         Err(error @ SurfaceError::RimBeyondEnd { x, y, limit, .. }) => {
             assert_eq!((x, y, limit), (-6.0, 6.0, -0.8));
             let [from, to] = [72_f64.sqrt() * 0.625, 72_f64.sqrt() + 2.0 + 10.0 / 6.0];
-            let told = format!("`line 1` goes down to -0.8 there and lies below the end at -0.5 from station {from:.3} to {to:.3}");
+            let told =
+                format!("`line 1` goes down to -0.8 there and lies below the end at -0.5 from station {from:.3} to {to:.3}");
             assert!(error.to_string().contains(&told) && error.to_string().contains("help: end below -0.8"), "{error}");
         }
         other => panic!("{:?}", other.map(|s| s.certificate)),
