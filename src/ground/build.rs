@@ -181,6 +181,9 @@ impl<'a> Site<'a> {
         if let Some(bare) = bare.as_ref().filter(|_| !options.allow_open) {
             return Err(bare.error());
         }
+        if options.finished {
+            figures::check_walls(&shape, &works)?;
+        }
         go_on("daylight")?;
         let mut nodes = Nodes::new(&shape, &patch, &works);
         notes.extend(standing(&shape, &works, designs));
@@ -192,7 +195,6 @@ impl<'a> Site<'a> {
             let trimmed = Trimmed::new(&shape, &patch, works, nodes, cutting).map_err(cut("the design"))?;
             let (mut left, mut within) = (None, None);
             if options.finished {
-                figures::check_walls(&shape, works)?;
                 left = Some(Left::new(&shape, &patch, works, nodes, whole).map_err(cut("the ground"))?);
                 if cutting.leaves_over(&shape, works) {
                     let cutting = Cutting { at_rim: true, ..cutting };
