@@ -10,7 +10,7 @@ use super::reach::{Bounds, Reach};
 use super::shape::Shape;
 use super::stations::{Stations, axes};
 use super::thinned::thinned;
-use super::trimmed::Trimmed;
+use super::trimmed::{Cutting, Trimmed};
 use super::works::{End, Flood, Sink, Works};
 use super::{GroundError, cell};
 use crate::kernel::frame::Frame;
@@ -35,6 +35,9 @@ const COARSER: f64 = 8.0;
 
 /// Platform area without ground up to this part of the whole is rounding.
 const AREA_ROUNDING: f64 = 1e-9;
+
+/// Length of line without ground up to this part of the whole is rounding.
+const LENGTH_ROUNDING: f64 = 1e-9;
 
 /// A line on its ground, before the slopes are known.
 pub struct Site<'a> {
@@ -174,19 +177,30 @@ impl<'a> Site<'a> {
             return Err(uncovered.error());
         }
         check_open(&shape, &works, designs, options)?;
+        let bare = Bare::find(&shape, &works);
+        if let Some(bare) = bare.as_ref().filter(|_| !options.allow_open) {
+            return Err(bare.error());
+        }
+        if options.finished {
+            figures::check_walls(&shape, &works)?;
+        }
         go_on("daylight")?;
         let mut nodes = Nodes::new(&shape, &patch, &works);
         notes.extend(standing(&shape, &works, designs));
         notes.extend(uncovered.as_ref().map(Uncovered::note));
+        notes.extend(bare.as_ref().filter(|_| uncovered.is_none()).map(Bare::note));
         let assemble = |works: &Works, nodes: &Nodes| {
             let cut = |what| move |cause| GroundError::Cut { what, cause };
-            let trimmed = Trimmed::new(&shape, &patch, works, nodes, whole).map_err(cut("the design"))?;
-            let left = if options.finished {
-                figures::check_walls(&shape, works, nodes)?;
-                Some(Left::new(&shape, &patch, works, nodes, whole).map_err(cut("the ground"))?)
-            } else {
-                None
-            };
+            let cutting = Cutting { whole, at_rim: false };
+            let trimmed = Trimmed::new(&shape, &patch, works, nodes, cutting).map_err(cut("the design"))?;
+            let (mut left, mut within) = (None, None);
+            if options.finished {
+                left = Some(Left::new(&shape, &patch, works, nodes, whole).map_err(cut("the ground"))?);
+                if cutting.leaves_over(&shape, works) {
+                    let cutting = Cutting { at_rim: true, ..cutting };
+                    within = Some(Trimmed::new(&shape, &patch, works, nodes, cutting).map_err(cut("the design"))?);
+                }
+            }
             go_on("finished ground")?;
             figures::ground(&figures::Found {
                 line: self.line,
@@ -198,9 +212,10 @@ impl<'a> Site<'a> {
                 works,
                 nodes,
                 trimmed: &trimmed,
+                within: within.as_ref().unwrap_or(&trimmed),
                 left: left.as_ref(),
                 fed: &fed,
-                covered: uncovered.is_none(),
+                covered: uncovered.is_none() && bare.is_none(),
                 stations: &stations,
                 notes: &notes,
             })
@@ -208,7 +223,7 @@ impl<'a> Site<'a> {
         match assemble(&works, &nodes) {
             Err(GroundError::Cut { .. } | GroundError::Unsound { .. }) => {
                 nodes.snap(&shape, &patch, &mut works);
-                assemble(&works, &nodes).map_err(|error| open_mesh(error, &shape, &works))
+                assemble(&works, &nodes).map_err(|error| open_mesh(error, &shape, &works, uncovered.as_ref()))
             }
             built => built,
         }
@@ -368,6 +383,43 @@ impl Uncovered {
     }
 }
 
+/// Line that has no ground below it.
+struct Bare {
+    /// Its length in plan.
+    length: f64,
+    /// Length in plan of all of the line.
+    all: f64,
+    /// A place of it in the world.
+    at: DVec2,
+}
+
+impl Bare {
+    fn find(shape: &Shape, works: &Works) -> Option<Self> {
+        let mut edges: Vec<([u32; 2], [f64; 2])> = works.over_ground.iter().map(|(&edge, &lengths)| (edge, lengths)).collect();
+        edges.sort_unstable_by_key(|(edge, _)| *edge);
+        let missing = |(_, [all, over]): &([u32; 2], [f64; 2])| all - over;
+        let length = edges.iter().map(missing).collect::<Sum>().value();
+        let all = edges.iter().map(|(_, [all, _])| *all).collect::<Sum>().value();
+        if length <= LENGTH_ROUNDING * all {
+            return None;
+        }
+        let (worst, _) = edges.into_iter().max_by(|p, q| missing(p).total_cmp(&missing(q)))?;
+        let [p, q] = worst.map(|v| shape.vertices[v as usize]);
+        Some(Self { length, all, at: shape.frame.to_world(0.5 * (p + q)).truncate() })
+    }
+
+    fn error(&self) -> GroundError {
+        GroundError::LineUncovered { length: self.length, all: self.all, x: self.at.x, y: self.at.y }
+    }
+
+    fn note(&self) -> Note {
+        let Self { length, all, at } = self;
+        let message =
+            format!("there is no ground under {length:.3} of {all:.3} of the line, first near ({:.3}, {:.3})", at.x, at.y);
+        Note::new("line-uncovered", message)
+    }
+}
+
 /// Looks at how the triangles of the ground near the works lie together.
 fn inspected(patch: &Patch, terrain: &Terrain, label: &str) -> Result<Vec<Note>, GroundError> {
     let near = Terrain { frame: terrain.frame, vertices: patch.vertices.clone(), triangles: patch.triangles.clone() };
@@ -401,13 +453,11 @@ fn check_open(shape: &Shape, works: &Works, designs: &[Design], options: &Option
     Err(GroundError::Open { x: at.x, y: at.y, length: length.value(), height: worst.height, at: place, cure })
 }
 
-/// Where ends are open, the meshes cannot always be put together: that is then the reason.
-fn open_mesh(error: GroundError, shape: &Shape, works: &Works) -> GroundError {
-    match (&error, works.open.first()) {
-        (GroundError::Cut { .. } | GroundError::Unsound { .. }, Some(open)) => {
-            let at = shape.frame.to_world(open.points[0]);
-            GroundError::OpenMesh { x: at.x, y: at.y }
-        }
+/// Where works go on beyond the ground, the meshes cannot always be put together: that is then the reason.
+fn open_mesh(error: GroundError, shape: &Shape, works: &Works, uncovered: Option<&Uncovered>) -> GroundError {
+    let open = works.open.first().map(|open| shape.frame.to_world(open.points[0]).truncate());
+    match (&error, open.or(uncovered.map(|uncovered| uncovered.at))) {
+        (GroundError::Cut { .. } | GroundError::Unsound { .. }, Some(at)) => GroundError::OpenMesh { x: at.x, y: at.y },
         _ => error,
     }
 }

@@ -71,6 +71,21 @@ pub enum GroundError {
         /// Place.
         y: f64,
     },
+    /// There is no ground below a part of the line.
+    #[error(
+        "there is no ground under {length:.3} of the line, first near ({x:.3}, {y:.3})\n   = the line has {all:.3}\n   \
+         = help: use a ground without holes that reaches beyond the works, or accept open ends with `--allow-open`"
+    )]
+    LineUncovered {
+        /// Length without ground, in plan.
+        length: f64,
+        /// Length of all edges with slopes, in plan.
+        all: f64,
+        /// Place.
+        x: f64,
+        /// Place.
+        y: f64,
+    },
     /// The line is not on the ground where slopes stand on one side of it only.
     #[error(
         "the finished ground would have upright walls {length:.3} long, first near ({x:.3}, {y:.3})\n   = the line lies up to \

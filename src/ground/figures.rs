@@ -1,11 +1,11 @@
 //! From the works to what is written: meshes, line work, figures and the certificate.
 
 use super::build::met as meets_ground;
-use super::cell::{Label, TOUCH};
+use super::cell::{Label, TOUCH, class};
 use super::certificate::certificate;
 use super::feeder::Fed;
 use super::finished::Left;
-use super::nodes::Nodes;
+use super::nodes::{Nodes, WELD};
 use super::patch::{NONE, Patch};
 use super::patchwork::Patchwork;
 use super::shape::Shape;
@@ -21,6 +21,9 @@ use crate::surface::curves::{self, chained};
 use crate::surface::{Areas, Certificate, Mark, Moves, Surface, flaw};
 use glam::DVec3;
 use rustc_hash::FxHashSet;
+
+/// Share of the area of a ground that rounding of sums may add or take.
+const AREA_ROUNDING: f64 = 1e-12;
 
 /// Where the works meet the ground.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -89,6 +92,8 @@ pub(crate) struct Found<'a> {
     pub(crate) works: &'a Works,
     pub(crate) nodes: &'a Nodes,
     pub(crate) trimmed: &'a Trimmed,
+    /// The design as it is part of the finished ground: no further than the ground.
+    pub(crate) within: &'a Trimmed,
     pub(crate) left: Option<&'a Left>,
     pub(crate) fed: &'a Fed,
     /// Whether there is ground below all of the platform.
@@ -207,6 +212,9 @@ fn error_bound(found: &Found, number: &Numbering, design: &Tin, edges: &HalfEdge
 /// The pieces of boundary where design and ground meet, as numbers of nodes.
 fn met(found: &Found) -> Vec<([u32; 2], Part)> {
     let ends = |border: &Border| {
+        if class(border.height) != 0 {
+            return None;
+        }
         let (from, to) = (found.nodes.meeting(border.from)?, found.nodes.meeting(border.to)?);
         (from != to).then_some(([from, to], found.shape.parts[border.a as usize]))
     };
@@ -281,15 +289,13 @@ fn push(features: &mut Vec<LineFeature>, found: &Found, segments: &[[u32; 2]], k
 ///
 /// # Errors
 /// [`GroundError::Walls`], [`GroundError::Open`].
-pub(crate) fn check_walls(shape: &Shape, works: &Works, nodes: &Nodes) -> Result<(), GroundError> {
+pub(crate) fn check_walls(shape: &Shape, works: &Works) -> Result<(), GroundError> {
     let (mut length, mut height, mut place) = (Sum::default(), 0.0_f64, None);
-    for border in &works.borders {
-        if nodes.meeting(border.from).is_none() || nodes.meeting(border.to).is_none() {
-            let [p, q] = border.points;
-            length.add(p.truncate().distance(q.truncate()));
-            height = height.max(border.height);
-            place.get_or_insert(0.5 * (p + q));
-        }
+    for border in works.borders.iter().filter(|border| class(border.height) != 0) {
+        let [p, q] = border.points;
+        length.add(p.truncate().distance(q.truncate()));
+        height = height.max(border.height);
+        place.get_or_insert(0.5 * (p + q));
     }
     for open in works.open.iter().filter(|open| open.end == End::Slope) {
         length.add(open.points[0].truncate().distance(open.points[1].truncate()));
@@ -311,7 +317,7 @@ fn finished(found: &Found, left: &Left) -> Result<Patchwork, GroundError> {
     let mut kept = left.kept.iter().copied().peekable();
     let gone = (0..patch.triangle_of.len() as u32).filter(|&b| kept.next_if_eq(&b).is_none());
     let gone = gone.map(|b| patch.triangle_of[b as usize]).collect();
-    let design = found.trimmed.triangles.iter().zip(&found.trimmed.from);
+    let design = found.within.triangles.iter().zip(&found.within.from);
     let design = design.map(|(&t, &a)| (t, found.shape.parts[a as usize]));
     let mut new: Vec<([u32; 3], Part)> = left.pieces.iter().map(|&t| (t, Part::Ground)).chain(design).collect();
     check_finished(found, left, &new)?;
@@ -339,24 +345,33 @@ fn check_finished(found: &Found, left: &Left, new: &[([u32; 3], Part)]) -> Resul
     }
     let mut rim: FxHashSet<[u32; 2]> = FxHashSet::default();
     for b in 0..patch.triangles.len() {
-        for j in 0..3 {
-            if patch.neighbours[b][j] == NONE {
-                rim.insert([patch.triangles[b][j], patch.triangles[b][(j + 1) % 3]].map(|v| nodes.ground(v)));
-            }
+        for j in (0..3).filter(|&j| patch.neighbours[b][j] == NONE) {
+            let ends = [patch.triangles[b][j], patch.triangles[b][(j + 1) % 3]].map(|v| nodes.ground(v));
+            let labels = found.works.on_ground.get(&patch.edge(b as u32, j as u8)).map_or(&[][..], |list| list);
+            let path = nodes.along(ends, labels.iter().filter_map(|&label| nodes.meeting(label)));
+            rim.extend(path.windows(2).map(|w| [w[0], w[1]]));
         }
     }
-    // Where slopes hang over the edge of the ground, they end with it.
-    if !found.works.open.is_empty() {
-        return Ok(());
-    }
-    let torn = soundness.boundary.iter().find(|e| !rim.contains(&e.map(|v| number.ids[v as usize])));
-    match torn {
-        Some(e) => {
-            let at = tin.world(e[0] as usize);
-            unsound(format!("it has a crack near ({:.3}, {:.3})", at.x, at.y))
+    // Works that go on beyond the edge of the ground end above or below it.
+    for border in &found.works.rims {
+        if let (Some(from), Some(to)) = (nodes.meeting(border.from), nodes.meeting(border.to)) {
+            rim.extend(nodes.pieces([from, to]));
         }
-        None => Ok(()),
     }
+    if let Some(e) = soundness.boundary.iter().find(|e| !rim.contains(&e.map(|v| number.ids[v as usize]))) {
+        let at = tin.world(e[0] as usize);
+        return unsound(format!("it has a crack near ({:.3}, {:.3})", at.x, at.y));
+    }
+    // Single as it is, it covers all that the ground covered if it has its area.
+    let area = |corners: &mut dyn Iterator<Item = [DVec3; 3]>| corners.map(volume::plan_area).collect::<Sum>().value();
+    let before = area(&mut patch.triangles.iter().map(|t| t.map(|v| patch.vertices[v as usize])));
+    let after = area(&mut (0..tin.triangles.len()).map(|t| tin.corners(t)));
+    // Places along its edge are rounded, by no more than what makes two points one.
+    let length = rim.iter().map(|e| e.map(|v| nodes.places[v as usize].truncate())).map(|[p, q]| p.distance(q)).sum::<f64>();
+    if (after - before).abs() > AREA_ROUNDING * before + WELD * length {
+        return unsound(format!("it covers {after} square units, the ground there {before}"));
+    }
+    Ok(())
 }
 
 impl Ground {

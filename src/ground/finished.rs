@@ -4,7 +4,7 @@ use super::cell::{Corner, Label, cell, class};
 use super::nodes::Nodes;
 use super::patch::Patch;
 use super::shape::Shape;
-use super::trimmed::{Passing, runs};
+use super::trimmed::{Passing, Path, runs};
 use super::works::{Border, Works, clip, split_sides};
 use crate::mesh::polygon;
 use crate::mesh::region::RegionError;
@@ -89,7 +89,11 @@ fn remainder(
     whole: bool,
 ) -> Vec<[u32; 2]> {
     let t = patch.triangles[b as usize];
-    let ends = |j: usize| [t[j], t[(j + 1) % 3]];
+    let paths = [0, 1, 2_usize].map(|j| {
+        let labels = works.on_ground.get(&patch.edge(b, j as u8)).map_or(&[][..], |list| list);
+        let ids = labels.iter().filter_map(|&label| nodes.meeting(label));
+        Path::new(nodes.along([t[j], t[(j + 1) % 3]].map(|v| nodes.ground(v)), ids))
+    });
     let mut stretches: [Vec<[u32; 2]>; 3] = Default::default();
     let mut edges = Vec::new();
     let (mut corners, mut kept) = (Vec::new(), Vec::new());
@@ -106,7 +110,8 @@ fn remainder(
         for (n, corner) in kept.iter().enumerate() {
             let Some(j) = corner.side.ground else { continue };
             let next = &kept[(n + 1) % kept.len()];
-            stretches[j as usize].push([on_side(corner, nodes, passing), on_side(next, nodes, passing)]);
+            let path = &paths[j as usize];
+            stretches[j as usize].push([number(corner, path, nodes, passing), number(next, path, nodes, passing)]);
         }
     }
     for border in &cut.borders {
@@ -114,48 +119,21 @@ fn remainder(
             edges.extend(nodes.pieces([to, from]));
         }
     }
-    for (j, list) in stretches.iter().enumerate() {
-        let labels = works.on_ground.get(&patch.edge(b, j as u8)).map_or(&[][..], |list| list);
-        let ids = labels.iter().filter_map(|&label| nodes.meeting(label));
-        let path = nodes.along(ends(j).map(|v| nodes.ground(v)), ids);
-        uncovered(&runs(list, passing), &path, &mut edges);
+    for (path, list) in paths.iter().zip(&stretches) {
+        path.uncovered(&runs(list, passing), &mut edges);
     }
     edges
 }
 
-/// Number of a corner on a side of a ground triangle. Vertices of the ground are themselves; a vertex of the design counts only
-/// where it meets the ground.
-fn on_side(corner: &Corner, nodes: &Nodes, passing: &mut Passing) -> u32 {
+/// Number of a corner on a side of a ground triangle. Vertices of the ground are themselves; a vertex of the design counts only where
+/// it meets the ground, and not under a platform: the ground ends at the edge of that.
+fn number(corner: &Corner, path: &Path, nodes: &Nodes, passing: &mut Passing) -> u32 {
     match corner.label {
-        Label::Ground(v) => nodes.ground(v),
-        _ if class(corner.h) == 0 => passing.id(corner),
-        label => passing.place(label),
-    }
-}
-
-/// The edges of `path`, a side with all its vertices, that no stretch from vertex to vertex covers.
-fn uncovered(stretches: &[[u32; 2]], path: &[u32], edges: &mut Vec<[u32; 2]>) {
-    let position: FxHashMap<u32, usize> = path.iter().enumerate().map(|(n, &v)| (v, n)).collect();
-    let mut covered = vec![false; path.len() - 1];
-    for [from, to] in stretches {
-        if let (Some(&from), Some(&to)) = (position.get(from), position.get(to)) {
-            covered[from.min(to)..to.max(from)].iter_mut().for_each(|c| *c = true);
+        Label::Ground(v) => path.number(nodes.ground(v), corner, passing),
+        _ if class(corner.h) == 0 => {
+            let id = passing.id(corner);
+            path.number(id, corner, passing)
         }
-    }
-    edges.extend((0..covered.len()).filter(|&n| !covered[n]).map(|n| [path[n], path[n + 1]]));
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn free_stretches_of_a_side() {
-        let mut edges = Vec::new();
-        uncovered(&[[3, 4], [1, 2]], &[1, 2, 3, 4], &mut edges);
-        assert_eq!(edges, [[2, 3]]);
-        edges.clear();
-        uncovered(&[], &[1, 2, 3, 4], &mut edges);
-        assert_eq!(edges, [[1, 2], [2, 3], [3, 4]]);
+        label => passing.place(label),
     }
 }

@@ -1,7 +1,7 @@
 //! Numbers and places of everything that can become a vertex: of the design, of the ground, and where the two meet.
 
 use super::cell::Label;
-use super::patch::Patch;
+use super::patch::{NONE, Patch};
 use super::shape::Shape;
 use super::works::{Works, remember};
 use crate::kernel::segment_tree::SegmentTree;
@@ -9,7 +9,7 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 /// Vertices closer than this in plan (length units) where design and ground meet become one.
-const WELD: f64 = 2e-8;
+pub(super) const WELD: f64 = 2e-8;
 
 /// Vertex numbers: first those of the design, then those of the patch of ground, then the new ones.
 pub(crate) struct Nodes {
@@ -177,16 +177,15 @@ impl Nodes {
 
     /// Numbers what stands above the edge of the ground: never a vertex of the ground itself.
     fn add_rim(&mut self, shape: &Shape, works: &Works) {
-        let mut labels: Vec<(Label, DVec3)> = works.above_rim.iter().map(|(&label, &p)| (label, p)).collect();
+        let mut labels: Vec<(Label, (DVec3, u32))> = works.above_rim.iter().map(|(&label, &at)| (label, at)).collect();
         labels.sort_unstable_by_key(|(label, _)| *label);
-        for (label, p) in labels {
-            let id = match label {
-                Label::Design(v) => self.alias[v as usize],
-                _ => {
-                    self.places.push(shape.frame.to_local(shape.frame.to_world(p)));
-                    self.alias.push(self.alias.len() as u32);
-                    self.places.len() as u32 - 1
-                }
+        for (label, (p, vertex)) in labels {
+            let id = if vertex == NONE {
+                self.places.push(shape.frame.to_local(shape.frame.to_world(p)));
+                self.alias.push(self.alias.len() as u32);
+                self.places.len() as u32 - 1
+            } else {
+                self.alias[vertex as usize]
             };
             self.of.entry(label).or_insert(id);
         }

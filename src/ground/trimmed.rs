@@ -4,7 +4,7 @@ use super::cell::{Corner, Label, Side, cell};
 use super::nodes::Nodes;
 use super::patch::{NONE, Patch};
 use super::shape::Shape;
-use super::works::{Border, Works, clip};
+use super::works::{Border, Works, clip, split_sides};
 use crate::mesh::polygon;
 use crate::mesh::region::RegionError;
 use crate::model::Part;
@@ -53,16 +53,83 @@ impl<'a> Passing<'a> {
     }
 }
 
+/// A straight side with all its vertices.
+pub(crate) struct Path {
+    ids: Vec<u32>,
+    position: FxHashMap<u32, usize>,
+}
+
+impl Path {
+    pub(crate) fn new(ids: Vec<u32>) -> Self {
+        let position = ids.iter().enumerate().map(|(n, &v)| (v, n)).collect();
+        Self { ids, position }
+    }
+
+    /// `id` if that is a vertex of the side, else a number for a mere place.
+    pub(crate) fn number(&self, id: u32, corner: &Corner, passing: &mut Passing) -> u32 {
+        if self.position.contains_key(&id) { id } else { passing.place(corner.label) }
+    }
+
+    /// The vertices from one to another further on.
+    fn stretch(&self, [from, to]: [u32; 2]) -> Option<&[u32]> {
+        let (from, to) = (*self.position.get(&from)?, *self.position.get(&to)?);
+        (from < to).then(|| &self.ids[from..=to])
+    }
+
+    /// The edges that no stretch from vertex to vertex covers.
+    pub(crate) fn uncovered(&self, stretches: &[[u32; 2]], edges: &mut Vec<[u32; 2]>) {
+        let Self { ids, position } = self;
+        let mut covered = vec![false; ids.len() - 1];
+        for [from, to] in stretches {
+            if let (Some(&from), Some(&to)) = (position.get(from), position.get(to)) {
+                covered[from.min(to)..to.max(from)].iter_mut().for_each(|c| *c = true);
+            }
+        }
+        edges.extend((0..covered.len()).filter(|&n| !covered[n]).map(|n| [ids[n], ids[n + 1]]));
+    }
+}
+
+/// What the ground cuts off the design.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Cutting {
+    /// Platform and slopes alike count with both signs and whatever their height.
+    pub(crate) whole: bool,
+    /// Also what counts whatever its height ends with the ground.
+    pub(crate) at_rim: bool,
+}
+
+impl Cutting {
+    /// Which side of the ground counts of a part: above (1), below (−1), or both.
+    fn sense(self, part: Part) -> Option<f64> {
+        match part {
+            Part::CutSlope if !self.whole => Some(-1.0),
+            Part::FillSlope if !self.whole => Some(1.0),
+            _ => None,
+        }
+    }
+
+    /// Whether the ground cuts off a part.
+    fn concerns(self, part: Part) -> bool {
+        self.at_rim || self.sense(part).is_some()
+    }
+
+    /// Whether any of the design goes on beyond the edge of the ground although it is not to be cut off there.
+    pub(crate) fn leaves_over(self, shape: &Shape, works: &Works) -> bool {
+        let over = |a: u32| !self.concerns(shape.parts[a as usize]) && works.hangs_over(a);
+        (0..shape.triangles.len() as u32).any(over)
+    }
+}
+
 impl Trimmed {
-    /// Cuts the design. `whole`: nothing is cut off.
+    /// Cuts the design.
     ///
     /// # Errors
     /// [`RegionError`] if a piece cannot be triangulated.
-    pub(crate) fn new(shape: &Shape, patch: &Patch, works: &Works, nodes: &Nodes, whole: bool) -> Result<Self, RegionError> {
+    pub(crate) fn new(shape: &Shape, patch: &Patch, works: &Works, nodes: &Nodes, cutting: Cutting) -> Result<Self, RegionError> {
         let mut trimmed = Self::default();
         let mut cells: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
         for &(a, b) in &works.cells {
-            if works.mixed[a as usize] && cut_off(shape.parts[a as usize], whole) {
+            if works.mixed[a as usize] && cutting.concerns(shape.parts[a as usize]) {
                 cells.entry(a).or_default().push(b);
             }
         }
@@ -72,13 +139,13 @@ impl Trimmed {
         }
         for a in 0..shape.triangles.len() as u32 {
             let part = shape.parts[a as usize];
-            if cut_off(part, whole) && !works.seen[a as usize] {
+            if cutting.concerns(part) && !works.seen[a as usize] {
                 continue;
             }
             let edges = match cells.get(&a) {
                 Some(over) => {
                     let rims = rims.get(&a).map_or(&[][..], |list| list);
-                    Some(trimmed.piece(shape, patch, works, nodes, a, over, rims))
+                    Some(trimmed.piece(shape, patch, works, nodes, cutting.sense(part), a, over, rims))
                 }
                 None => trimmed.with_points(shape, works, nodes, a),
             };
@@ -112,23 +179,33 @@ impl Trimmed {
         patch: &Patch,
         works: &Works,
         nodes: &Nodes,
+        sense: Option<f64>,
         a: u32,
         over: &[u32],
         rims: &[Border],
     ) -> Vec<[u32; 2]> {
-        let sense = if shape.parts[a as usize] == Part::CutSlope { -1.0 } else { 1.0 };
+        let paths = [0, 1, 2_usize].map(|i| {
+            let labels = works.on_design.get(&shape.edge(a, i as u8)).map_or(&[][..], |list| list);
+            let ends = [i, (i + 1) % 3].map(|n| nodes.design(shape.triangles[a as usize][n]));
+            Path::new(nodes.along(ends, labels.iter().filter_map(|&label| nodes.meeting(label))))
+        });
         let mut passing = Passing::new(nodes);
         let (mut corners, mut kept) = (Vec::new(), Vec::new());
         let mut edges = Vec::new();
         let mut on_sides: [Vec<[u32; 2]>; 3] = Default::default();
         for &b in over {
             cell(shape, patch, a, b, &mut corners);
-            clip(shape, patch, (a, b), &corners, sense, &mut kept);
+            match sense {
+                Some(sense) => clip(shape, patch, (a, b), &corners, sense, &mut kept),
+                None => split_sides(shape, patch, (a, b), &corners, &mut kept),
+            }
             for (n, corner) in kept.iter().enumerate() {
                 let next = &kept[(n + 1) % kept.len()];
                 let edge = [passing.id(corner), passing.id(next)];
                 if let Some(i) = corner.side.design {
-                    on_sides[i as usize].push(edge);
+                    let path = &paths[i as usize];
+                    on_sides[i as usize]
+                        .push([path.number(edge[0], corner, &mut passing), path.number(edge[1], next, &mut passing)]);
                 } else if corner.side == Side::INSIDE {
                     edges.extend(nodes.pieces(edge));
                 }
@@ -141,17 +218,9 @@ impl Trimmed {
         }
         for (i, list) in on_sides.iter().enumerate() {
             let edge = shape.edge(a, i as u8);
-            let labels = works.on_design.get(&edge).map_or(&[][..], |list| list);
             let mut pieces = Vec::new();
-            let ends = [i, (i + 1) % 3].map(|n| nodes.design(shape.triangles[a as usize][n]));
-            let path = nodes.along(ends, labels.iter().filter_map(|&label| nodes.meeting(label)));
             for run in runs(list, &passing) {
-                let [from, to] = run.map(|v| path.iter().position(|&w| w == v));
-                let stretch = match (from, to) {
-                    (Some(from), Some(to)) if from < to => &path[from..=to],
-                    _ => &run,
-                };
-                for w in stretch.windows(2) {
+                for w in paths[i].stretch(run).unwrap_or(&run).windows(2) {
                     edges.push([w[0], w[1]]);
                     pieces.push([w[0].min(w[1]), w[0].max(w[1])]);
                 }
@@ -185,11 +254,6 @@ impl Trimmed {
     }
 }
 
-/// Whether the ground cuts off a part.
-fn cut_off(part: Part, whole: bool) -> bool {
-    !whole && part != Part::Platform
-}
-
 /// Stretches from vertex to vertex, of pieces of a side that follow one another.
 pub(crate) fn runs(pieces: &[[u32; 2]], passing: &Passing) -> Vec<[u32; 2]> {
     let pieces: Vec<[u32; 2]> = pieces.iter().copied().filter(|e| e[0] != e[1]).collect();
@@ -209,4 +273,20 @@ pub(crate) fn runs(pieces: &[[u32; 2]], passing: &Passing) -> Vec<[u32; 2]> {
         }
     }
     runs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn free_stretches_of_a_side() {
+        let mut edges = Vec::new();
+        let path = Path::new(vec![1, 2, 3, 4]);
+        path.uncovered(&[[3, 4], [1, 2]], &mut edges);
+        assert_eq!(edges, [[2, 3]]);
+        edges.clear();
+        path.uncovered(&[], &mut edges);
+        assert_eq!(edges, [[1, 2], [2, 3], [3, 4]]);
+    }
 }

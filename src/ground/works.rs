@@ -3,6 +3,8 @@
 use super::cell::{Corner, Label, Side, cell, class};
 use super::patch::{NONE, Patch};
 use super::shape::Shape;
+use crate::kernel::box_tree::BoxTree;
+use crate::kernel::plan_box::PlanBox;
 use crate::model::Part;
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -77,10 +79,20 @@ pub(crate) struct Works {
     pub(crate) seen: Vec<bool>,
     /// Ends that did not meet the ground.
     pub(crate) open: Vec<Open>,
-    /// Slopes cut off at the edge of the ground: that edge, works on the left.
+    /// Works cut off at the edge of the ground: that edge, works on the left.
     pub(crate) rims: Vec<Border>,
     /// Points of the design on the edge of the ground that become vertices, although design and ground do not meet there.
-    pub(crate) above_rim: FxHashMap<Label, DVec3>,
+    /// Each with the vertex of the design there, if there is one.
+    pub(crate) above_rim: FxHashMap<Label, (DVec3, u32)>,
+    /// Length of every edge of the line, and how much of it has ground below.
+    pub(crate) over_ground: FxHashMap<[u32; 2], [f64; 2]>,
+}
+
+impl Works {
+    /// Whether a triangle of the design that the ground does not cut off goes beyond its edge.
+    pub(crate) fn hangs_over(&self, a: u32) -> bool {
+        self.mixed[a as usize] || !self.seen[a as usize]
+    }
 }
 
 /// What takes the pieces of the works, one by one: a cell's part in the works, counter-clockwise, with its triangle of the design.
@@ -121,6 +133,7 @@ impl<'a, S: Sink> Flood<'a, S> {
             open: Vec::new(),
             rims: Vec::new(),
             above_rim: FxHashMap::default(),
+            over_ground: FxHashMap::default(),
         };
         let mut flood = Self {
             shape,
@@ -134,14 +147,20 @@ impl<'a, S: Sink> Flood<'a, S> {
             kept: Vec::new(),
         };
         flood.seed();
-        while let Some((a, b)) = flood.pending.pop() {
-            flood.visit(a, b);
-        }
+        flood.spread();
+        flood.seed_at_rim();
+        flood.spread();
         let mut works = flood.works;
         works.borders.extend(works.loose.values().copied());
         works.borders.sort_unstable_by_key(|border| (border.from, border.to));
         works.loose = FxHashMap::default();
         works
+    }
+
+    fn spread(&mut self) {
+        while let Some((a, b)) = self.pending.pop() {
+            self.visit(a, b);
+        }
     }
 
     fn push(&mut self, a: u32, b: u32) {
@@ -178,14 +197,44 @@ impl<'a, S: Sink> Flood<'a, S> {
             near.dedup();
             let sense = self.sense(a);
             let mut corners = std::mem::take(&mut self.corners);
+            let mut lengths = [0.0; 3];
             for &b in &near {
                 cell(shape, self.patch, a, b, &mut corners);
+                for (n, corner) in corners.iter().enumerate() {
+                    if let Some(i) = corner.side.design {
+                        lengths[i as usize] += corner.at.distance(corners[(n + 1) % corners.len()].at);
+                    }
+                }
                 let touches = |c: &Corner| c.on_design & sides != 0 || c.vertex != NONE && on_line[c.vertex as usize];
                 if corners.iter().any(|c| touches(c) && sense.is_none_or(|sense| class(sense * c.h) >= 0)) {
                     self.push(a, b);
                 }
             }
             self.corners = corners;
+            for i in (0..3).filter(|i| sides & 1 << i != 0) {
+                // Along the edge of the ground only one side of the line has any.
+                let known = self.works.over_ground.entry(shape.edge(a, i as u8)).or_default();
+                *known = [plan[i].distance(plan[(i + 1) % 3]), lengths[i].max(known[1])];
+            }
+        }
+    }
+
+    /// Starts where the edge of the ground runs under what counts whatever its height: ground may lie under a platform without coming
+    /// to its edge.
+    fn seed_at_rim(&mut self) {
+        let (shape, patch) = (self.shape, self.patch);
+        let flats = (0..shape.triangles.len() as u32).filter(|&a| self.sense(a).is_none());
+        let boxes: Vec<(u32, PlanBox)> = flats.map(|a| (a, PlanBox::of(shape.plan(a)))).collect();
+        let all = boxes.iter().fold(PlanBox::EMPTY, |all, (_, one)| all.join(*one));
+        let plan = |b: u32| PlanBox::of(patch.triangles[b as usize].map(|v| patch.vertices[v as usize].truncate()));
+        let at_rim = (0..patch.triangles.len() as u32).filter(|&b| patch.neighbours[b as usize].contains(&NONE));
+        let near: Vec<(u32, PlanBox)> = at_rim.map(|b| (b, plan(b))).filter(|(_, one)| one.meets(&all)).collect();
+        if near.is_empty() {
+            return;
+        }
+        let tree = BoxTree::new(&boxes);
+        for (b, one) in near {
+            tree.meeting(&one, |a| self.push(a, b));
         }
     }
 
@@ -252,18 +301,16 @@ impl<'a, S: Sink> Flood<'a, S> {
         let across = |neighbours: [u32; 3], side: Option<u8>, own: u32| side.map_or(own, |i| neighbours[i as usize]);
         let next_a = across(self.shape.neighbours[a as usize], side.design, a);
         let next_b = across(self.patch.neighbours[b as usize], side.ground, b);
-        if next_a == NONE {
+        if next_b == NONE {
+            self.works.mixed[a as usize] = true;
+            self.rim(border, ends);
+        } else if next_a == NONE {
             let edge = side.design.map(|i| self.shape.edge(a, i));
             if edge.is_some_and(|edge| self.shape.hinge.contains(&edge)) || self.whole {
                 self.loose(*border);
             } else {
                 self.open(End::Slope, ends);
             }
-            self.works.mixed[a as usize] |= next_b == NONE;
-        } else if next_b == NONE {
-            self.works.mixed[a as usize] = true;
-            self.open(End::Ground, ends);
-            self.rim(border, ends);
         } else {
             self.push(next_a, next_b);
         }
@@ -271,11 +318,18 @@ impl<'a, S: Sink> Flood<'a, S> {
 
     /// Cuts the design off at the edge of the ground.
     fn rim(&mut self, border: &Border, ends: [&Corner; 2]) {
-        for corner in ends.into_iter().filter(|c| class(c.h) != 0) {
-            self.works.above_rim.entry(corner.label).or_insert_with(|| corner.at.extend(corner.z));
+        for corner in ends {
+            if class(corner.h) == 0 {
+                self.note(border.a, border.b, corner);
+                continue;
+            }
+            self.works.above_rim.entry(corner.label).or_insert_with(|| (corner.at.extend(corner.z), corner.vertex));
             for i in (0..3).filter(|i| corner.on_design & 1 << i != 0) {
                 remember(&mut self.works.on_design, self.shape.edge(border.a, i), corner.label);
             }
+        }
+        if class(border.height) != 0 {
+            self.open(End::Ground, ends);
         }
         self.works.rims.push(*border);
     }

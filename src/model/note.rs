@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// Notes on the result itself rather than on how the input was read.
-const WARNINGS: [&str; 13] = [
+const WARNINGS: [&str; 14] = [
     "buried",
     "line-beyond-end",
     "ground-single-precision",
@@ -13,6 +13,7 @@ const WARNINGS: [&str; 13] = [
     "ground-spikes",
     "design-uncovered",
     "platform-uncovered",
+    "line-uncovered",
     "meshes-swapped",
     "lies-double",
     "single-precision",

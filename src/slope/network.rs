@@ -98,6 +98,10 @@ pub struct Network {
 struct Piece {
     ends: [u32; 2],
     wanted: [bool; 2],
+    /// Wishes of rings that slope outwards, where there are any: outside of two polygons is outside of both.
+    outside: Option<[bool; 2]>,
+    /// Wishes of all others: what one of them wants holds.
+    others: [bool; 2],
     interior: [bool; 2],
     /// The places of its ends on the line.
     given: [Given; 2],
@@ -309,10 +313,12 @@ fn pieces(line: &Line, design: &Design, segments: &Segments, order: &canonical::
                     let vertex = i as u32 + u32::from(t >= 1.0);
                     Given { chain: c as u32, vertex, part: if t >= 1.0 { 0.0 } else { t } }
                 };
-                let piece = Piece { ends, wanted, interior, given: [place(w[0].0), place(w[1].0)], against: false };
+                let (outside, others) = if side == Side::Outside { (Some(wanted), [false; 2]) } else { (None, wanted) };
+                let given = [place(w[0].0), place(w[1].0)];
+                let piece = Piece { ends, wanted, outside, others, interior, given, against: false };
                 let pair = [ends[0].min(ends[1]), ends[0].max(ends[1])];
                 match known.get(&pair) {
-                    Some(&p) => pieces[p].join(&piece, side),
+                    Some(&p) => pieces[p].join(&piece),
                     None => {
                         known.insert(pair, pieces.len());
                         pieces.push(piece);
@@ -325,15 +331,21 @@ fn pieces(line: &Line, design: &Design, segments: &Segments, order: &canonical::
 }
 
 impl Piece {
-    /// Takes over the wishes of another line that runs here too.
-    fn join(&mut self, other: &Self, side: Side) {
+    /// Takes over the wishes of another line that runs here too, whichever comes first.
+    fn join(&mut self, other: &Self) {
         let same = self.ends == other.ends;
         let turned = |sides: [bool; 2]| if same { sides } else { [sides[1], sides[0]] };
-        let (wanted, interior) = (turned(other.wanted), turned(other.interior));
+        let (outside, others, interior) = (other.outside.map(turned), turned(other.others), turned(other.interior));
+        self.outside = match (self.outside, outside) {
+            (Some([a, b]), Some([c, d])) => Some([a && c, b && d]),
+            (one, other) => one.or(other),
+        };
         for s in 0..2 {
             self.interior[s] |= interior[s];
-            // Outside of two polygons is outside of both; any other wish holds where one line has it.
-            self.wanted[s] = if side == Side::Outside { self.wanted[s] && wanted[s] } else { self.wanted[s] || wanted[s] };
+            self.others[s] |= others[s];
+            // A platform has no slopes on it: lines along its edge have theirs on the other side only.
+            let platform = self.outside.is_some() && self.interior[s];
+            self.wanted[s] = !platform && (self.others[s] || self.outside.is_some_and(|outside| outside[s]));
         }
     }
 }

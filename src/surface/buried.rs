@@ -1,7 +1,7 @@
 //! Stretches of the line that lie below the slope of another part, in the words of the line: chains and stations.
 
 use super::stations::Stations;
-use crate::model::{Chain, Design, Line, Note, Sheet as SheetKind};
+use crate::model::{Chain, Design, Line, Note, Sheet as SheetKind, Slope};
 use crate::sheet::Segment;
 use crate::slope::closure::Closure;
 use crate::slope::network::{Edge, Network, twin};
@@ -30,12 +30,29 @@ pub struct Buried {
     pub free_slope: Option<f64>,
 }
 
+impl Buried {
+    /// The stretch in words.
+    pub(crate) fn told(&self, line: &Line, design: &Design) -> String {
+        let word = if design.sheet == SheetKind::Falling { "below" } else { "above" };
+        format!(
+            "`{}` lies up to {:.3} {word} the slope of `{}` from station {:.3} to {:.3}",
+            line.chains[self.chain].name, self.depth, line.chains[self.by_chain].name, self.from, self.to
+        )
+    }
+}
+
+/// The flattest slope that leaves all stretches free, as it can be typed; `None` if there is none.
+pub(crate) fn freeing(stretches: &[Buried]) -> Option<String> {
+    let steepest = stretches.iter().try_fold(0.0, |steepest, b| Some(f64::max(steepest, b.free_slope?)))?;
+    Slope::from_ratio(steepest).map(Slope::not_flatter)
+}
+
 /// What does not show of the line.
 pub(crate) struct Found {
     /// Stretches below another part's slope.
     pub(crate) stretches: Vec<Buried>,
     /// Stretches beyond the end of the slope: chain, stations.
-    below: Vec<(usize, f64, f64)>,
+    pub(crate) below: Vec<(usize, f64, f64)>,
 }
 
 /// Points looked at along a stretch, per edge and at the ends.

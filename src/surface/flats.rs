@@ -1,10 +1,11 @@
 //! Platforms inside rings and floors of pits.
 
+use super::SurfaceError;
+use super::buried::{Found, freeing};
 use super::formation::{Roads, Threads};
-use super::{Buried, SurfaceError};
 use crate::mesh::check::HalfEdges;
 use crate::mesh::region::{self, RegionError};
-use crate::model::{Design, Line, Note, Side};
+use crate::model::{Chain, Design, Extent, Line, Note, Role, Sheet, Side};
 use crate::slope::emit::{Slopes, Trace};
 use crate::slope::network::Network;
 use rustc_hash::FxHashSet;
@@ -29,17 +30,12 @@ pub(super) fn fill(
     design: &Design,
     network: &Network,
     slopes: &mut Slopes,
-    buried: &[Buried],
+    hidden: &Found,
 ) -> Result<Flats, SurfaceError> {
     let outline = platform_outline(network, slopes);
     if !outline.is_empty() {
-        if let Some(b) = buried.iter().find(|b| line.chains[b.chain].closed()) {
-            let (x, y) = (b.at.x, b.at.y);
-            let what = format!(
-                "`{}` lies up to {:.3} below the slope of `{}` from station {:.3} to {:.3}",
-                line.chains[b.chain].name, b.depth, line.chains[b.by_chain].name, b.from, b.to
-            );
-            return Err(SurfaceError::PlatformCovered { x, y, what });
+        if let Some(b) = hidden.stretches.iter().find(|b| line.chains[b.chain].closed()) {
+            return Err(SurfaceError::PlatformCovered { x: b.at.x, y: b.at.y, what: b.told(line, design) });
         }
         return platform(line, network, slopes, outline).map_err(|cause| flat_error(network, "platform", cause));
     }
@@ -52,12 +48,60 @@ pub(super) fn fill(
     if !only_inside {
         return Ok(flats);
     }
+    keep_inside(line, design, hidden)?;
     let rim = rim(slopes);
     if rim.is_empty() {
         return Ok(flats);
     }
     flats.triangles = region::fill(&slopes.points, &rim).map_err(|cause| flat_error(network, "floor", cause))?;
     Ok(flats)
+}
+
+/// Part of the length of a ring that may show although all of it is hidden: rounding of stations.
+const ALL_BUT: f64 = 1e-9;
+
+/// Slopes inside a ring begin at every place of it, else they or the floor would pass over it and go on outside. Holes that lie
+/// wholly under the slopes or the floor are covered by them, and rings that lie wholly beyond the end have neither.
+fn keep_inside(line: &Line, design: &Design, hidden: &Found) -> Result<(), SurfaceError> {
+    let length = |chain: &Chain| chain.stations().last().copied().unwrap_or(0.0);
+    let shares = |chain: usize| {
+        let covered: f64 = hidden.stretches.iter().filter(|b| b.chain == chain).map(|b| b.to - b.from).sum();
+        let beyond: f64 = hidden.below.iter().filter(|b| b.0 == chain).map(|b| b.2 - b.1).sum();
+        let all = length(&line.chains[chain]) * (1.0 - ALL_BUT);
+        (covered, beyond, covered + beyond >= all)
+    };
+    for b in &hidden.stretches {
+        let (.., wholly) = shares(b.chain);
+        if !(wholly && matches!(line.chains[b.chain].role, Role::Hole { .. })) {
+            let apart = "build the rings one by one, or move them apart";
+            let cure = match freeing(&hidden.stretches) {
+                Some(slope) if b.chain == b.by_chain => format!("use {slope} or steeper, or blunt the corner"),
+                Some(slope) => format!("use {slope} or steeper; {apart}"),
+                None => apart.to_owned(),
+            };
+            return Err(SurfaceError::RimCovered { x: b.at.x, y: b.at.y, what: b.told(line, design), cure });
+        }
+    }
+    for &(chain, from, to) in &hidden.below {
+        let Extent::Elevation(end) = design.extent else { continue };
+        if shares(chain).2 {
+            continue;
+        }
+        let chain = &line.chains[chain];
+        let heights = chain.vertices.iter().map(|v| v.z);
+        let (beyond, limit) = match design.sheet {
+            Sheet::Falling => ("below", heights.fold(f64::INFINITY, f64::min)),
+            Sheet::Rising => ("above", heights.fold(f64::NEG_INFINITY, f64::max)),
+        };
+        let Some(at) = chain.vertices.iter().find(|v| v.z == limit) else { continue };
+        let what = format!(
+            "`{}` goes down to {limit} there and lies {beyond} the end at {end} from station {from:.3} to {to:.3}",
+            chain.name
+        );
+        let what = if design.sheet == Sheet::Rising { what.replace("goes down", "goes up") } else { what };
+        return Err(SurfaceError::RimBeyondEnd { x: at.x, y: at.y, what, beyond, limit });
+    }
+    Ok(())
 }
 
 /// A piece of outline with the unsloped inside of a ring on its left.
@@ -96,7 +140,9 @@ fn platform(line: &Line, network: &Network, slopes: &mut Slopes, outline: Vec<Pi
     }
     let roads = Roads::new(line, network, slopes);
     flats.stations = roads.stations(&threads);
-    let edges: FxHashSet<usize> = outline.iter().map(|piece| piece.edge).collect();
+    // An edge with a platform on either side, as where a road goes on in another, is an outline for both.
+    let own = |edge: &usize| network.edges[*edge].interior != [true; 2];
+    let edges: FxHashSet<usize> = outline.iter().map(|piece| piece.edge).filter(own).collect();
     let mut stripped = vec![false; line.chains.len()];
     for (chain, done) in stripped.iter_mut().enumerate() {
         if let Some(triangles) = roads.strip(chain, &threads, &slopes.points, &edges) {

@@ -96,10 +96,39 @@ pub enum SurfaceError {
         /// The covered stretch in words.
         what: String,
     },
+    /// Slopes inside a ring pass over another place of it, and would go on outside.
+    #[error("the slopes inside a ring pass over its own edge near ({x:.3}, {y:.3})\n   = {what}\n   = help: {cure}")]
+    RimCovered {
+        /// Place.
+        x: f64,
+        /// Place.
+        y: f64,
+        /// The covered stretch in words.
+        what: String,
+        /// What helps.
+        cure: String,
+    },
+    /// The slopes inside a ring end at an elevation that the ring itself goes beyond.
+    #[error(
+        "the floor would pass over the edge of its ring near ({x:.3}, {y:.3})\n   = {what}\n   = help: end {beyond} {limit}, or at a \
+         height or distance from the line"
+    )]
+    RimBeyondEnd {
+        /// Place of the lowest vertex of the ring (highest, of rising slopes).
+        x: f64,
+        /// Place.
+        y: f64,
+        /// The stretch in words.
+        what: String,
+        /// Below or above.
+        beyond: &'static str,
+        /// Elevation of that vertex.
+        limit: f64,
+    },
     /// An outline could not be filled.
     #[error(
-        "the {part} cannot be triangulated near ({x:.3}, {y:.3}): {cause}\n   = slopes leave the ring they belong to where its sides \
-         close up at different heights\n   = help: build on one side at a time, use a steeper slope, or blunt the corner"
+        "the {part} cannot be triangulated near ({x:.3}, {y:.3}): {cause}\n   = help: try another `--tolerance`; this is a limit of the \
+         program, please report the line"
     )]
     Flat {
         /// Platform or floor.
@@ -352,7 +381,7 @@ impl Task<'_> {
         }
         room::for_mesh(line, slopes.triangles.len() as u64, &memory)?;
         let buried = buried::stretches(line, sheet, &solved.closure);
-        let flats = flats::fill(line, design, network, &mut slopes, &buried.stretches)?;
+        let flats = flats::fill(line, design, network, &mut slopes, &buried)?;
         go_on("certificate")?;
         let body = Body::new(network, design, &slopes, &flats);
         let ((feet, foot_of), (marks, edges)) = rayon::join(

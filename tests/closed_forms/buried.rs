@@ -122,3 +122,79 @@ fn a_covered_platform_is_refused() {
         other => panic!("{:?}", other.map(|s| s.certificate)),
     }
 }
+
+/// A pit in a sharp, tilted triangle. The plane of the side to (−8, 6), length 10, gradient −0.06, passes over the corner at (−6, 6),
+/// which lies at s = 8.4 along that side and t = 1.2 beside it: it is `−0.06·8.4 − 1.2·√(k² − 0.06²)` high there, the corner −0.8.
+/// They meet at `√(k² − 0.06²) = (0.8 − 0.504)/1.2`. With flatter slopes those of one side would go on outside of the ring.
+#[test]
+fn slopes_never_leave_the_ring_they_are_inside_of() {
+    let ring = |sign: f64| {
+        let [z, w] = [-0.8 * sign, -0.6 * sign];
+        line(&[crate::common::build::ring(&[[0.0, 0.0, 0.0], [-6.0, 6.0, z], [-8.0, 6.0, w]])])
+    };
+    let inside = |k, extent| Design { side_of_rings: Side::Inside, ..design(k, extent) };
+    let limit = (0.296_f64 / 1.2).hypot(0.06);
+    for extent in [Extent::Height(0.2), Extent::Distance(0.5), Extent::Elevation(-5.0)] {
+        match surface::build(&ring(1.0), &inside(0.25, extent), None, &()) {
+            Err(SurfaceError::RimCovered { x, y, what, cure }) => {
+                close(x, -6.0, EXACT, "place of the greatest depth");
+                close(y, 6.0, EXACT, "place of the greatest depth");
+                // −0.504 − 1.2·√(0.0625 − 0.0036) = −0.795232, from the tip to the third corner at 6√2 + 2.
+                assert_eq!(what, "`line 1` lies up to 0.005 below the slope of `line 1` from station 0.000 to 10.485");
+                assert_eq!((cure, (1e3 / limit).floor()), ("use 1V:3.939H or steeper, or blunt the corner".to_owned(), 3939.0));
+            }
+            other => panic!("{:?}", other.map(|s| s.certificate)),
+        }
+    }
+    let rising = Design { sheet: slopegen::model::Sheet::Rising, ..inside(0.25, Extent::Height(0.2)) };
+    match surface::build(&ring(-1.0), &rising, None, &()) {
+        Err(SurfaceError::RimCovered { what, .. }) => assert!(what.contains("up to 0.005 above the slope"), "{what}"),
+        other => panic!("{:?}", other.map(|s| s.certificate)),
+    }
+    // The slope of the cure holds, and slopes and floor fill the triangle: half of |(−6)·6 − (−8)·6| = 6.
+    for extent in [Extent::Height(0.05), Extent::Distance(0.2), Extent::Elevation(-5.0)] {
+        let built = surface::build(&ring(1.0), &inside(1.0 / 3.939, extent), None, &()).unwrap();
+        close(built.areas.plan, 6.0, EXACT, "plan area");
+        assert!(built.buried.is_empty());
+    }
+}
+
+/// The same with an end above the lowest corner: the floor would hang over the ring, from −0.5 on one side (5/8 of 6√2) to −0.5 on
+/// the other (1/6 of the way home from the third corner, at 6√2 + 2).
+#[test]
+fn a_floor_never_passes_over_its_ring() {
+    let ring = line(&[crate::common::build::ring(&[[0.0, 0.0, 0.0], [-6.0, 6.0, -0.8], [-8.0, 6.0, -0.6]])]);
+    let wanted = |end| Design { side_of_rings: Side::Inside, ..design(0.5, Extent::Elevation(end)) };
+    match surface::build(&ring, &wanted(-0.5), None, &()) {
+        Err(error @ SurfaceError::RimBeyondEnd { x, y, limit, .. }) => {
+            assert_eq!((x, y, limit), (-6.0, 6.0, -0.8));
+            let [from, to] = [72_f64.sqrt() * 0.625, 72_f64.sqrt() + 2.0 + 10.0 / 6.0];
+            let told =
+                format!("`line 1` goes down to -0.8 there and lies below the end at -0.5 from station {from:.3} to {to:.3}");
+            assert!(error.to_string().contains(&told) && error.to_string().contains("help: end below -0.8"), "{error}");
+        }
+        other => panic!("{:?}", other.map(|s| s.certificate)),
+    }
+    let built = surface::build(&ring, &wanted(-0.81), None, &()).unwrap();
+    close(built.areas.plan, 6.0, EXACT, "plan area");
+}
+
+/// Pits 3 apart in plan and 10 in height: the slope of the upper one does not go outside of it, but the sheet does. Such rings are
+/// built one by one. A hole wholly under the slopes of its own pit is covered: the cone-free pit of a square of 30 has the area 900.
+#[test]
+fn pits_side_by_side_and_covered_holes() {
+    let wanted = Design { side_of_rings: Side::Inside, ..design(0.5, Extent::Height(1.0)) };
+    let pits = line(&[rectangle([0.0, 0.0, 10.0], 10.0, 10.0), rectangle([13.0, 0.0, 0.0], 10.0, 10.0)]);
+    match surface::build(&pits, &wanted, None, &()) {
+        Err(SurfaceError::RimCovered { cure, .. }) => assert!(cure.contains("one by one"), "{cure}"),
+        other => panic!("{:?}", other.map(|s| s.certificate)),
+    }
+    let mut holed = line(&[rectangle([0.0, 0.0, 0.0], 30.0, 30.0), rectangle([10.0, 10.0, -9.0], 10.0, 10.0)]);
+    holed.chains[1].role = slopegen::model::Role::Hole { polygon: 0 };
+    holed.chains[1].vertices.reverse();
+    let wanted = Design { extent: Extent::Elevation(-10.0), ..wanted };
+    let built = surface::build(&holed, &wanted, None, &()).unwrap();
+    close(built.areas.plan, 900.0, EXACT, "plan area");
+    // A pyramid of 30 · 30 and 7.5 deep.
+    close(built.volumes.cut, 900.0 * 7.5 / 3.0, 1e-9 * 2250.0, "volume");
+}

@@ -10,6 +10,7 @@ mod closed;
 mod connected;
 mod data;
 mod degenerate;
+mod edges;
 mod figures;
 mod finished;
 mod fixtures;
