@@ -202,7 +202,7 @@ fn error_bound(found: &Found, number: &Numbering, design: &Tin, edges: &HalfEdge
         let of_sheet =
             moves.iter().zip(found.designs).filter(|(_, d)| design.parts[owner as usize] == Part::Platform || d.sheet == sheet);
         let ends = edge.map(|v| design.vertices[v as usize]);
-        of_sheet.map(|(m, _)| m.strip(ends, on_cone(owner as usize))).fold(0.0, f64::max)
+        of_sheet.map(|(m, _)| m.strip(ends, m.one_sided || on_cone(owner as usize))).fold(0.0, f64::max)
     });
     let tallied = &found.fed.tallied;
     let deepest = [&tallied.deepest_cut, &tallied.deepest_fill].into_iter().flatten().map(|d| d.depth).fold(0.0, f64::max);

@@ -10,6 +10,7 @@ use crate::slope::emit::{self, Slopes, Trace};
 use crate::slope::network::Network;
 use glam::DVec3;
 use rayon::prelude::*;
+use rustc_hash::FxHashSet;
 
 /// An edge across which a slope has less than this share of itself is a ruling.
 const RULING: f64 = 1e-4;
@@ -134,9 +135,12 @@ impl Body {
         let all = (0..self.tin.triangles.len()).map(area).collect::<Sum>().value();
         let cones = (0..self.on_cone.len()).filter(|&t| self.on_cone[t]).map(area).collect::<Sum>().value();
         let owners = owners(open, self.tin.vertices.len(), &self.tin.triangles);
+        let hinges = self.traces.iter().filter(|(trace, _)| matches!(trace, Trace::Hinge(_)));
+        let hinges: FxHashSet<[u32; 2]> = hinges.flat_map(|&(_, [a, b])| [[a, b], [b, a]]).collect();
         let strip = |(edge, owner): (&[u32; 2], u32)| {
             let ends = edge.map(|v| self.tin.vertices[v as usize]);
-            let curved = self.on_cone.get(owner as usize).is_some_and(|&on_cone| on_cone);
+            let on_cone = self.on_cone.get(owner as usize).is_some_and(|&on_cone| on_cone);
+            let curved = on_cone || moves.one_sided && !hinges.contains(edge) && ends.iter().any(|p| p.z != elevation);
             let height = 0.5 * ends.iter().map(|p| (p.z - elevation).abs()).sum::<f64>();
             moves.strip(ends, curved) * (height + moves.line + moves.cone)
         };
@@ -153,8 +157,8 @@ pub(crate) struct Moves {
     pub(crate) cone: f64,
     /// Height over distance in plan: what turns heights into shifts of the border.
     slope: f64,
-    /// Whether some of the line has a slope on one side only.
-    one_sided: bool,
+    /// Whether there are corners with a slope on one side only: on the other side there may be cones that are not part of the mesh.
+    pub(crate) one_sided: bool,
 }
 
 impl Moves {
@@ -162,19 +166,19 @@ impl Moves {
     pub(crate) fn new(line: &Line, design: &Design, simplified_max: f64) -> Self {
         let slope = design.slope.ratio();
         let sagitta = line.chains.iter().filter_map(|c| c.axis.as_ref()).map(|axis| axis.sagitta).fold(0.0, f64::max);
-        let both = |chain: &Chain| {
+        let one_sided = |chain: &Chain| {
             let side = if chain.closed() { design.side_of_rings } else { design.side_of_lines };
-            side == Side::Both
+            side != Side::Both && chain.segment_count() > 1
         };
         Self {
             line: simplified_max + slope * sagitta,
             cone: CHORD_SHARE * design.tolerance,
             slope,
-            one_sided: !line.chains.iter().all(both),
+            one_sided: line.chains.iter().any(one_sided),
         }
     }
 
-    /// Area of the strip by which an edge of the border may be off; `curved` if it belongs to a cone.
+    /// Area of the strip by which an edge of the border may be off; `curved` if it may be that of a cone.
     ///
     /// Where a side of the line has no slope, the border may run where the slope would meet that of the other side. Two planes of one
     /// slope that meet along an edge differ across it by twice the slope they have there, and each may be off.
@@ -182,7 +186,7 @@ impl Moves {
         let length = p.truncate().distance(q.truncate());
         let along = (p.z - q.z).abs() / length;
         let across = ((self.slope - along) * (self.slope + along)).max(0.0).sqrt();
-        let off = self.line + if curved || self.one_sided { self.cone } else { 0.0 };
+        let off = self.line + if curved { self.cone } else { 0.0 };
         // The ruling a slope ends in stays where it is.
         if across > RULING * self.slope { length * off / across } else { 0.0 }
     }
