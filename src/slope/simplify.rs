@@ -3,6 +3,7 @@
 //! Dense smooth lines are ill-conditioned: where neighbouring strips differ by `δ` radians, ridge positions carry an error of
 //! about `ε·extent/δ²`. So the engine drops vertices that the sheet cannot tell apart within a bound.
 
+use super::network::COLLINEAR;
 use glam::DVec3;
 
 /// A vertex that was dropped: it stays on the hinge, moved onto the chord that replaced its neighbourhood.
@@ -39,12 +40,11 @@ pub struct Chord {
 pub fn simplify(run: &[DVec3], kept: [bool; 2], slope: f64, bound: f64, steepest: f64, spacing: f64) -> Vec<Chord> {
     let mut chords = Vec::new();
     let last = run.len() - 1;
-    let inner = [usize::from(kept[0]), last - usize::from(kept[1])];
-    let mut pending = if inner[0] < inner[1] {
-        vec![(inner[1], last), (inner[0], inner[1]), (0, inner[0])]
-    } else {
-        (0..last).rev().map(|i| (i, i + 1)).collect()
-    };
+    let straight = |run: &[DVec3]| straight(run, slope, steepest, spacing);
+    let first = if kept[0] { straight(run) } else { 0 };
+    let behind = if kept[1] { last - straight(&run.iter().rev().copied().collect::<Vec<_>>()) } else { last };
+    let behind = behind.max(first);
+    let mut pending = vec![(behind, last), (first, behind), (0, first)];
     pending.retain(|(from, to)| from < to);
     while let Some((from, to)) = pending.pop() {
         match split_at(run, from, to, slope, bound, steepest, spacing) {
@@ -53,6 +53,23 @@ pub fn simplify(run: &[DVec3], kept: [bool; 2], slope: f64, bound: f64, steepest
         }
     }
     chords
+}
+
+/// The vertex up to which a run is straight from its beginning.
+fn straight(run: &[DVec3], slope: f64, steepest: f64, spacing: f64) -> usize {
+    let is_straight = |to: usize| to < run.len() && split_at(run, 0, to, slope, COLLINEAR, steepest, spacing).is_ok();
+    let (mut to, mut step) = (1, 1);
+    while is_straight(to + step) {
+        to += step;
+        step *= 2;
+    }
+    while step > 0 {
+        if is_straight(to + step) {
+            to += step;
+        }
+        step /= 2;
+    }
+    to
 }
 
 /// The vertices between `from` and `to` moved onto the chord, whatever their error (measured in height and plan alike).
@@ -133,7 +150,8 @@ mod tests {
 
     #[test]
     fn edges_at_the_ends_are_kept_where_they_must() {
-        let points: Vec<(f64, f64, f64)> = (0..6).map(|i| (f64::from(i), 0.0, 0.0)).collect();
+        // No three on one line, all within the bound of the chord.
+        let points: Vec<(f64, f64, f64)> = (0..6).map(|i| (f64::from(i), 0.01 * f64::from(i * i % 4), 0.0)).collect();
         for (count, kept, expected) in [
             (6, [false, false], vec![(0, 5)]),
             (6, [true, false], vec![(0, 1), (1, 5)]),
@@ -146,6 +164,11 @@ mod tests {
             let chords = simplify(&run(&points[..count]), kept, 0.5, 0.1, 0.499, 1e-6);
             assert_eq!(chords.iter().map(|c| (c.from, c.to)).collect::<Vec<_>>(), expected, "{count} {kept:?}");
         }
+        // An edge with vertices on it stays one edge.
+        let split =
+            run(&[(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (2.0, 0.0, 0.0), (3.0, 0.01, 0.0), (4.0, 0.03, 0.0), (5.0, 0.05, 0.0)]);
+        let chords = simplify(&split, [true, true], 0.5, 0.1, 0.499, 1e-6);
+        assert_eq!(chords.iter().map(|c| (c.from, c.to)).collect::<Vec<_>>(), [(0, 2), (2, 3), (3, 5)]);
     }
 
     #[test]
