@@ -1,6 +1,6 @@
 //! Lines that lie below the slope of another part: stretches, depths and the slope that would free them.
 
-use crate::common::build::{design, line, on_both_sheets, open, rectangle};
+use crate::common::build::{design, line, on_both_sheets, open, polygon, rectangle, ring};
 use crate::common::measure::{close, height, length};
 use slopegen::model::{CurveKind, Design, Extent, Side};
 use slopegen::surface::{self, SurfaceError};
@@ -128,14 +128,14 @@ fn a_covered_platform_is_refused() {
 /// They meet at `√(k² − 0.06²) = (0.8 − 0.504)/1.2`. With flatter slopes those of one side would go on outside of the ring.
 #[test]
 fn slopes_never_leave_the_ring_they_are_inside_of() {
-    let ring = |sign: f64| {
+    let triangle = |sign: f64| {
         let [z, w] = [-0.8 * sign, -0.6 * sign];
-        line(&[crate::common::build::ring(&[[0.0, 0.0, 0.0], [-6.0, 6.0, z], [-8.0, 6.0, w]])])
+        line(&[ring(&[[0.0, 0.0, 0.0], [-6.0, 6.0, z], [-8.0, 6.0, w]])])
     };
     let inside = |k, extent| Design { side_of_rings: Side::Inside, ..design(k, extent) };
     let limit = (0.296_f64 / 1.2).hypot(0.06);
     for extent in [Extent::Height(0.2), Extent::Distance(0.5), Extent::Elevation(-5.0)] {
-        match surface::build(&ring(1.0), &inside(0.25, extent), None, &()) {
+        match surface::build(&triangle(1.0), &inside(0.25, extent), None, &()) {
             Err(SurfaceError::RimCovered { x, y, what, cure }) => {
                 close(x, -6.0, EXACT, "place of the greatest depth");
                 close(y, 6.0, EXACT, "place of the greatest depth");
@@ -147,13 +147,13 @@ fn slopes_never_leave_the_ring_they_are_inside_of() {
         }
     }
     let rising = Design { sheet: slopegen::model::Sheet::Rising, ..inside(0.25, Extent::Height(0.2)) };
-    match surface::build(&ring(-1.0), &rising, None, &()) {
+    match surface::build(&triangle(-1.0), &rising, None, &()) {
         Err(SurfaceError::RimCovered { what, .. }) => assert!(what.contains("up to 0.005 above the slope"), "{what}"),
         other => panic!("{:?}", other.map(|s| s.certificate)),
     }
     // The slope of the cure holds, and slopes and floor fill the triangle: half of |(−6)·6 − (−8)·6| = 6.
     for extent in [Extent::Height(0.05), Extent::Distance(0.2), Extent::Elevation(-5.0)] {
-        let built = surface::build(&ring(1.0), &inside(1.0 / 3.939, extent), None, &()).unwrap();
+        let built = surface::build(&triangle(1.0), &inside(1.0 / 3.939, extent), None, &()).unwrap();
         close(built.areas.plan, 6.0, EXACT, "plan area");
         assert!(built.buried.is_empty());
     }
@@ -163,9 +163,9 @@ fn slopes_never_leave_the_ring_they_are_inside_of() {
 /// the other (1/6 of the way home from the third corner, at 6√2 + 2).
 #[test]
 fn a_floor_never_passes_over_its_ring() {
-    let ring = line(&[crate::common::build::ring(&[[0.0, 0.0, 0.0], [-6.0, 6.0, -0.8], [-8.0, 6.0, -0.6]])]);
+    let triangle = line(&[ring(&[[0.0, 0.0, 0.0], [-6.0, 6.0, -0.8], [-8.0, 6.0, -0.6]])]);
     let wanted = |end| Design { side_of_rings: Side::Inside, ..design(0.5, Extent::Elevation(end)) };
-    match surface::build(&ring, &wanted(-0.5), None, &()) {
+    match surface::build(&triangle, &wanted(-0.5), None, &()) {
         Err(error @ SurfaceError::RimBeyondEnd { x, y, limit, .. }) => {
             assert_eq!((x, y, limit), (-6.0, 6.0, -0.8));
             let [from, to] = [72_f64.sqrt() * 0.625, 72_f64.sqrt() + 2.0 + 10.0 / 6.0];
@@ -175,12 +175,12 @@ fn a_floor_never_passes_over_its_ring() {
         }
         other => panic!("{:?}", other.map(|s| s.certificate)),
     }
-    let built = surface::build(&ring, &wanted(-0.81), None, &()).unwrap();
+    let built = surface::build(&triangle, &wanted(-0.81), None, &()).unwrap();
     close(built.areas.plan, 6.0, EXACT, "plan area");
 }
 
 /// Pits 3 apart in plan and 10 in height: the slope of the upper one does not go outside of it, but the sheet does. Such rings are
-/// built one by one. A hole wholly under the slopes of its own pit is covered: the cone-free pit of a square of 30 has the area 900.
+/// built one by one. A hole wholly under the slopes of its own pit is covered: the pit of a square of 30 has the area 900.
 #[test]
 fn pits_side_by_side_and_covered_holes() {
     let wanted = Design { side_of_rings: Side::Inside, ..design(0.5, Extent::Height(1.0)) };
@@ -189,9 +189,9 @@ fn pits_side_by_side_and_covered_holes() {
         Err(SurfaceError::RimCovered { cure, .. }) => assert!(cure.contains("one by one"), "{cure}"),
         other => panic!("{:?}", other.map(|s| s.certificate)),
     }
-    let mut holed = line(&[rectangle([0.0, 0.0, 0.0], 30.0, 30.0), rectangle([10.0, 10.0, -9.0], 10.0, 10.0)]);
-    holed.chains[1].role = slopegen::model::Role::Hole { polygon: 0 };
-    holed.chains[1].vertices.reverse();
+    let mut hole = rectangle([10.0, 10.0, -9.0], 10.0, 10.0);
+    hole.points.reverse();
+    let holed = polygon(&[rectangle([0.0, 0.0, 0.0], 30.0, 30.0), hole]);
     let wanted = Design { extent: Extent::Elevation(-10.0), ..wanted };
     let built = surface::build(&holed, &wanted, None, &()).unwrap();
     close(built.areas.plan, 900.0, EXACT, "plan area");

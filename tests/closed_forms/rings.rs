@@ -1,6 +1,6 @@
 //! Level rings: pads, pits, roofs, holes, cones.
 
-use crate::common::build::{design, line, on_both_sheets, polygon, rectangle, regular};
+use crate::common::build::{design, line, on_both_sheets, open, polygon, rectangle, regular};
 use crate::common::measure::{close, curves, length, level_length, net_above, not_above, plan_area};
 use slopegen::model::{CurveKind, Design, Extent, Part, Side};
 use slopegen::selftest::formulas::{parallel_area, parallel_volume, pit_volume, roof_creases, roof_volume};
@@ -170,4 +170,23 @@ fn a_plane_through_a_pit() {
     let cut = pit_volume(l - 2.0 * n * depth, w - 2.0 * n * depth, n, d - depth);
     close(surface.volumes.cut, cut, EXACT, "below the plane");
     close(surface.volumes.fill, l * w * depth - (pit_volume(l, w, n, d) - cut), EXACT, "above the plane");
+}
+
+/// A line along the edge of a pad has its slopes on the outer side only: the platform stays whole, whichever of the two comes first.
+#[test]
+fn a_line_along_the_edge_of_a_pad() {
+    let pad = rectangle([0.0, 0.0, 0.0], 20.0, 10.0);
+    let along = open(&[[5.0, 0.0, 0.0], [15.0, 0.0, 0.0]]);
+    let wanted =
+        slopegen::model::Design { side_of_rings: slopegen::model::Side::Outside, ..design(0.5, Extent::Elevation(-2.0)) };
+    let area = |lines: &[crate::common::oracle::Polyline]| {
+        let built = surface::build(&line(lines), &wanted, None, &()).unwrap();
+        assert!((built.areas.platform - 200.0).abs() < 1e-9, "{}", built.areas.platform);
+        built.areas.plan
+    };
+    let alone = area(std::slice::from_ref(&pad));
+    for lines in [[pad.clone(), along.clone()], [along, pad]] {
+        let found = area(&lines);
+        assert!((found - alone).abs() < 1e-9 * alone, "{found} for {alone}");
+    }
 }
