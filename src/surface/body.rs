@@ -135,7 +135,8 @@ impl Body {
         let all = (0..self.tin.triangles.len()).map(area).collect::<Sum>().value();
         let cones = (0..self.on_cone.len()).filter(|&t| self.on_cone[t]).map(area).collect::<Sum>().value();
         let owners = owners(open, self.tin.vertices.len(), &self.tin.triangles);
-        let hinges = self.traces.iter().filter(|(trace, _)| matches!(trace, Trace::Hinge(_)));
+        // Where both sides have slopes, the line is no border.
+        let hinges = self.traces.iter().filter(|(trace, _)| moves.one_sided && matches!(trace, Trace::Hinge(_)));
         let hinges: FxHashSet<[u32; 2]> = hinges.flat_map(|&(_, [a, b])| [[a, b], [b, a]]).collect();
         let strip = |(edge, owner): (&[u32; 2], u32)| {
             let ends = edge.map(|v| self.tin.vertices[v as usize]);
