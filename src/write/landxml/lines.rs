@@ -13,7 +13,7 @@ use std::io::Write;
 /// Writes the line work [`Head::lines`] as plan features: each a chain of straight lines, its kind and number as name.
 ///
 /// # Errors
-/// As [`write_landxml`].
+/// As [`super::write_landxml`].
 pub fn write_landxml_lines(out: &mut (impl Write + ?Sized), head: &Head<'_>) -> Result<(), EncodeError> {
     let mut bytes = start(head);
     bytes.extend_from_slice(b"<PlanFeatures name=\"");

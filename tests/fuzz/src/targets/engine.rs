@@ -116,8 +116,24 @@ impl Look<'_> {
         assert!(tin.parts.iter().all(|&p| p == slopes || p == Part::Platform));
     }
 
+    /// Whether the edge of a platform lies below the slope of another edge, be it by less than the tolerance: that slope would have to
+    /// pass over the platform, and is no part of what is built.
+    fn is_covered(&self) -> bool {
+        /// Places looked at on each edge.
+        const PLACES: u32 = 16;
+        let (lines, rising, k) = (self.polylines(), self.design.sheet == Sheet::Rising, self.design.slope.ratio());
+        let sign = if rising { -1.0 } else { 1.0 };
+        let rings = self.line.chains.iter().filter(|chain| chain.closed()).map(|chain| &chain.vertices);
+        let edges = rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+        let mut places = edges.flat_map(|(a, b)| (0..PLACES).map(move |i| a.lerp(*b, f64::from(i) / f64::from(PLACES))));
+        places.any(|p| sign * (oracle::height(&lines, k, rising, p.x, p.y) - p.z) > ROUNDING * self.scale())
+    }
+
     /// Slopes against the envelope of all cones.
     fn heights(&self) {
+        if self.is_covered() {
+            return;
+        }
         let (lines, rising, k) = (self.polylines(), self.design.sheet == Sheet::Rising, self.design.slope.ratio());
         let allowed = self.design.tolerance + ROUNDING * self.scale();
         let step = self.surface.tin.triangles.len() / 200 + 1;
