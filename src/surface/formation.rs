@@ -59,16 +59,26 @@ impl Threads {
 /// A point of the edge of a road: vertex, station.
 type Along = Vec<Beside>;
 
+/// An edge of the network along a road.
+struct RoadEdge {
+    /// Its number.
+    edge: usize,
+    /// Its points from start to end.
+    along: Along,
+    /// Whether each of them is a vertex of the road: others lie on levels.
+    given: Vec<bool>,
+}
+
 /// The edges of all roads with their stations.
 pub(super) struct Roads<'a> {
     line: &'a Line,
-    /// By chain: edges of the network in the order of the ring, each with its points from start to end.
-    edges: Vec<Vec<(usize, Along)>>,
+    /// By chain: edges in the order of the ring.
+    edges: Vec<Vec<RoadEdge>>,
 }
 
 impl<'a> Roads<'a> {
     pub(super) fn new(line: &'a Line, network: &Network, slopes: &Slopes) -> Self {
-        let mut edges: Vec<Vec<(usize, Along)>> = vec![Vec::new(); line.chains.len()];
+        let mut edges: Vec<Vec<RoadEdge>> = line.chains.iter().map(|_| Vec::new()).collect();
         let mut order: Vec<usize> = (0..network.edges.len()).collect();
         let start = |e: usize| network.edges[e].given[0];
         order.sort_by(|&a, &b| {
@@ -98,7 +108,9 @@ impl<'a> Roads<'a> {
             let mut along = vec![(edge.a, marks[0].1)];
             along.extend(inner.iter().map(|p| (p.id, at(p.s))));
             along.push((edge.b, marks[marks.len() - 1].1));
-            edges[edge.given[0].chain as usize].push((e, along));
+            let ends = std::iter::once(true);
+            let given = ends.clone().chain(inner.iter().map(|p| p.given.is_some())).chain(ends).collect();
+            edges[edge.given[0].chain as usize].push(RoadEdge { edge: e, along, given });
         }
         Self { line, edges }
     }
@@ -107,7 +119,7 @@ impl<'a> Roads<'a> {
     pub(super) fn stations(&self, threads: &Threads) -> Vec<(u32, u32, f64)> {
         let mut found: Vec<(u32, u32, f64)> = Vec::new();
         for (chain, edges) in self.edges.iter().enumerate() {
-            found.extend(edges.iter().flat_map(|(_, along)| along).map(|&(v, station)| (v, chain as u32, station)));
+            found.extend(edges.iter().flat_map(|edge| &edge.along).map(|&(v, station)| (v, chain as u32, station)));
         }
         for (&(v, index, i), &plan) in threads.fresh.iter().zip(&threads.plan) {
             let breakline = &self.line.breaklines[index];
@@ -130,6 +142,8 @@ impl<'a> Roads<'a> {
 
     /// The platform of a road from cross-section to cross-section; `None` where it is more than a road (lines or rings lie in it,
     /// its edge is shared) or is too crooked for that. `outline` are the edges with a platform.
+    ///
+    /// Made of the vertices of the road, so that its shape is the same with whatever levels; then its edge gets those of the slopes.
     pub(super) fn strip(
         &self,
         chain: usize,
@@ -144,11 +158,15 @@ impl<'a> Roads<'a> {
         let ids = &threads.lines[axis].0;
         let centre: Along = ids.iter().copied().zip(stations.iter().copied()).collect();
         let edges = &self.edges[chain];
-        let joined = |i: usize| edges[i].1.last().map(|p| p.0) == edges[(i + 1) % edges.len()].1.first().map(|p| p.0);
-        if edges.is_empty() || !(0..edges.len()).all(|i| joined(i) && outline.contains(&edges[i].0)) || self.holds_others(chain) {
+        let id = |p: Option<&Beside>| p.map(|p| p.0);
+        let joined = |i: usize| id(edges[i].along.last()) == id(edges[(i + 1) % edges.len()].along.first());
+        if edges.is_empty()
+            || !(0..edges.len()).all(|i| joined(i) && outline.contains(&edges[i].edge))
+            || self.holds_others(chain)
+        {
             return None;
         }
-        let ring: Along = edges.iter().flat_map(|(_, along)| along[..along.len() - 1].iter().copied()).collect();
+        let (ring, between) = corners(edges);
         let find = |id: u32| ring.iter().position(|p| p.0 == id);
         let (first, last) = (find(*ids.first()?)?, find(*ids.last()?)?);
         let run = |from: usize, to: usize| -> Along {
@@ -160,7 +178,7 @@ impl<'a> Roads<'a> {
         right.reverse();
         let mut triangles = strip::between(points, &centre, &left)?;
         triangles.extend(strip::between(points, &right, &centre)?);
-        Some(triangles)
+        Some(fanned(triangles, &between))
     }
 
     /// Whether another chain begins inside of this ring.
@@ -172,6 +190,50 @@ impl<'a> Roads<'a> {
             bounds.contains(p) && (0..ring.len()).fold(false, |odd, i| odd ^ crosses_ray(p, ring[i], ring[(i + 1) % ring.len()]))
         })
     }
+}
+
+/// The vertices of a road around its ring, and the other points between two that follow each other.
+fn corners(edges: &[RoadEdge]) -> (Along, FxHashMap<[u32; 2], Vec<u32>>) {
+    let mut corners = Along::new();
+    let mut between: FxHashMap<[u32; 2], Vec<u32>> = FxHashMap::default();
+    for edge in edges {
+        let mut passed = Vec::new();
+        let mut from = edge.along[0];
+        for (point, given) in edge.along.iter().zip(&edge.given).skip(1) {
+            if *given {
+                corners.push(from);
+                if !passed.is_empty() {
+                    between.insert([from.0, point.0], std::mem::take(&mut passed));
+                }
+                from = *point;
+            } else {
+                passed.push(point.0);
+            }
+        }
+    }
+    (corners, between)
+}
+
+/// Triangles with the points `between` two corners in their sides, each side fanned out from the corner opposite.
+fn fanned(triangles: Vec<[u32; 3]>, between: &FxHashMap<[u32; 2], Vec<u32>>) -> Vec<[u32; 3]> {
+    let mut fanned = Vec::with_capacity(triangles.len());
+    let mut rest = triangles;
+    rest.reverse();
+    while let Some([a, b, c]) = rest.pop() {
+        let side = [[a, b, c], [b, c, a], [c, a, b]].into_iter().find_map(|[from, to, apex]| {
+            let forward = between.get(&[from, to]).map(|points| points.to_vec());
+            let backward = || between.get(&[to, from]).map(|points| points.iter().rev().copied().collect());
+            forward.or_else(backward).map(|points| (from, points, to, apex))
+        });
+        let Some((from, points, to, apex)) = side else {
+            fanned.push([a, b, c]);
+            continue;
+        };
+        let along: Vec<u32> = std::iter::once(from).chain(points).chain(std::iter::once(to)).collect();
+        // The first and the last may have points in another side.
+        rest.extend(along.windows(2).rev().map(|w| [w[0], w[1], apex]));
+    }
+    fanned
 }
 
 /// Whether the ray from `p` towards +x crosses the segment.
