@@ -11,6 +11,7 @@ use super::network::{Given, twin};
 use super::polygon::{self, Corner};
 use super::refine::{Cut, REACH_SNAP};
 use super::trim::Sheet;
+use crate::kernel::range::held;
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -261,7 +262,7 @@ impl<'a> Shared<'a> {
             let first = if piece.forward { arc.ends[0] } else { arc.ends[1] };
             for (i, id) in std::iter::once(first).chain(inner).enumerate() {
                 let (tau, r) = facet.parameters(self.points[id as usize].truncate());
-                let tau = if i == 0 { piece.tau[0] } else { tau.clamp(piece.tau[0], piece.tau[1]) };
+                let tau = if i == 0 { piece.tau[0] } else { held(tau, piece.tau) };
                 far.push(Far { tau, r, id, shared });
             }
         }
@@ -309,7 +310,7 @@ impl<'a> Shared<'a> {
             for point in points {
                 let id = base + cell.points.len() as PointId;
                 cell.points.push(point);
-                let tau = facet.parameters(point.truncate()).0.clamp(p.tau, q.tau);
+                let tau = held(facet.parameters(point.truncate()).0, [p.tau, q.tau]);
                 whole.push(Far { tau, r: reach, id, shared: false });
             }
         }

@@ -1,6 +1,7 @@
 //! Foot points: which place of the line every slope triangle belongs to.
 
 use super::stations::Stations;
+use crate::kernel::range::held;
 use crate::model::Sheet;
 use crate::slope::facet::{Facet, Kind};
 use crate::slope::network::Network;
@@ -30,7 +31,7 @@ pub struct Foot {
 impl Foot {
     /// Station of the foot of the plan point `x`.
     pub fn station(&self, x: DVec2) -> f64 {
-        (self.station + self.gradient.dot(x - self.origin)).clamp(self.range[0], self.range[1])
+        held(self.station + self.gradient.dot(x - self.origin), self.range)
     }
 }
 

@@ -1,6 +1,7 @@
 //! What lies between two knots of a facet with different partners.
 
 use super::{Knot, State, TIE_WIDTH, VertexId, sides_of, twin_strip};
+use crate::kernel::range::held;
 use crate::slope::facet::{END, FacetId, Lateral};
 use crate::slope::junction;
 use glam::{DVec2, DVec3};
@@ -25,7 +26,7 @@ impl State<'_> {
         {
             let vertex = self.tip_vertex(j);
             let (tau, _) = self.sheet.facet(f).parameters(self.vertices[vertex as usize].truncate());
-            return Between::Vertex { tau: tau.clamp(a.tau, b.tau), left: ka, right: kb, vertex };
+            return Between::Vertex { tau: held(tau, [a.tau, b.tau]), left: ka, right: kb, vertex };
         }
         let root = junction::root(self.sheet, f, ka, kb, a.tau, b.tau);
         let tau = root.unwrap_or(0.5 * (a.tau + b.tau));
@@ -35,7 +36,7 @@ impl State<'_> {
             let (exact_tau, _) = self.sheet.facet(f).parameters(plan);
             let slack = 1e-7 * (1.0 + width);
             if plan.is_finite() && exact_tau > a.tau - slack && exact_tau < b.tau + slack {
-                let tau = exact_tau.clamp(a.tau, b.tau);
+                let tau = held(exact_tau, [a.tau, b.tau]);
                 if let Some((neighbour, vertex)) = self.beyond(f, ka, plan, a, b) {
                     return self.step_over(f, ka, neighbour, vertex, a, b, tau);
                 }
