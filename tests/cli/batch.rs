@@ -181,6 +181,9 @@ fn wrong_usage() {
 #[test]
 fn an_interrupt_leaves_nothing_half_written() {
     use std::process::{Command, Stdio};
+    if super::interrupts_are_ignored() {
+        return;
+    }
     let site = site();
     // A pipe nobody writes to: the job has opened its outputs, and waits.
     let pipe = site.path("jobs/line.csv");

@@ -33,6 +33,22 @@ use tempfile::TempDir;
 /// Longer than any job here takes on a slow machine; a hang fails the test instead of holding it up.
 const PATIENCE: Duration = Duration::from_secs(120);
 
+/// Whether this process was started with SIGINT ignored, as in the background of a shell without job control: what it starts ignores
+/// it as well, as it should, and cannot be interrupted. Says so.
+#[cfg(unix)]
+#[allow(clippy::print_stderr, reason = "a test that is skipped says so")]
+fn interrupts_are_ignored() -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask =
+        status.lines().find_map(|line| line.strip_prefix("SigIgn:")).and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    // SIGINT is 2, the second bit.
+    let ignored = mask.is_some_and(|mask| mask & 2 != 0);
+    if ignored {
+        eprintln!("SKIPPED: SIGINT is ignored here, and interrupts are not tested");
+    }
+    ignored
+}
+
 /// A working folder with the shipped examples in it.
 struct Site {
     folder: TempDir,
