@@ -1,9 +1,20 @@
 //! Memory that is asked for, whether or not it is ever touched: a count read from a file is not believed.
 
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The most that may be asked for at once, for files of the lengths that fuzzers make.
-const MOST: usize = 64 << 20;
+const FILES: usize = 64 << 20;
+
+/// The same where surfaces are built: a few vertices far up on flat slopes have large meshes.
+const SURFACES: usize = 512 << 20;
+
+static MOST: AtomicUsize = AtomicUsize::new(FILES);
+
+/// Allows what meshes take.
+pub(crate) fn allow_surfaces() {
+    MOST.store(SURFACES, Ordering::Relaxed);
+}
 
 struct Bounded;
 
@@ -33,7 +44,7 @@ unsafe impl GlobalAlloc for Bounded {
 }
 
 fn bound(size: usize) {
-    if size > MOST {
+    if size > MOST.load(Ordering::Relaxed) {
         eprintln!("{size} bytes of memory were asked for at once");
         std::process::abort();
     }
