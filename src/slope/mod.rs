@@ -1,5 +1,6 @@
 //! The surface of constant slope: network, facets, trimming, closure, emission.
 
+pub mod apart;
 pub mod arcs;
 mod canonical;
 pub mod closure;

@@ -8,6 +8,7 @@ use crate::kernel::plan_box::PlanBox;
 use crate::model::{Design, Extent, Joggle, Line, Role, Sheet, Side};
 use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::hash::Hash;
 
 /// Vertices closer than this (length units, 3D) are one vertex.
 pub const WELD_DISTANCE: f64 = 1e-6;
@@ -284,15 +285,38 @@ impl Network {
     }
 }
 
+/// Pieces, each once.
+struct Pieces<K> {
+    list: Vec<(K, Piece)>,
+    known: FxHashMap<(K, [u32; 2]), usize>,
+}
+
+impl<K: Copy + Eq + Hash> Pieces<K> {
+    fn new() -> Self {
+        Self { list: Vec::new(), known: FxHashMap::default() }
+    }
+
+    /// Adds a piece, or joins it to the one of the same key that runs between the same nodes.
+    fn add(&mut self, key: K, piece: Piece, join: impl Fn(&mut Piece, &Piece)) {
+        let pair = [piece.ends[0].min(piece.ends[1]), piece.ends[0].max(piece.ends[1])];
+        match self.known.get(&(key, pair)) {
+            Some(&p) => join(&mut self.list[p].1, &piece),
+            None => {
+                self.known.insert((key, pair), self.list.len());
+                self.list.push((key, piece));
+            }
+        }
+    }
+}
+
 /// The pieces of line between nodes, each once, with the sides on which a slope is wanted.
 fn pieces(line: &Line, design: &Design, segments: &Segments, order: &canonical::Order) -> Vec<Piece> {
-    let mut pieces: Vec<Piece> = Vec::new();
-    let mut known: FxHashMap<[u32; 2], usize> = FxHashMap::default();
+    let mut of_polygons: Pieces<Option<u32>> = Pieces::new();
     for (c, chain) in line.chains.iter().enumerate() {
-        let (side, interior_left) = match chain.role {
-            Role::Open => (design.side_of_lines, false),
-            Role::Outer { .. } => (design.side_of_rings, signed_area(&chain.vertices) > 0.0),
-            Role::Hole { .. } => (design.side_of_rings, signed_area(&chain.vertices) < 0.0),
+        let (side, interior_left, polygon) = match chain.role {
+            Role::Open => (design.side_of_lines, false, None),
+            Role::Outer { polygon } => (design.side_of_rings, signed_area(&chain.vertices) > 0.0, Some(polygon)),
+            Role::Hole { polygon } => (design.side_of_rings, signed_area(&chain.vertices) < 0.0, Some(polygon)),
         };
         let against = order.against(c as u32);
         let wanted = match side {
@@ -316,26 +340,45 @@ fn pieces(line: &Line, design: &Design, segments: &Segments, order: &canonical::
                 let (outside, others) = if side == Side::Outside { (Some(wanted), [false; 2]) } else { (None, wanted) };
                 let given = [place(w[0].0), place(w[1].0)];
                 let piece = Piece { ends, wanted, outside, others, interior, given, against: false };
-                let pair = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-                match known.get(&pair) {
-                    Some(&p) => pieces[p].join(&piece),
-                    None => {
-                        known.insert(pair, pieces.len());
-                        pieces.push(piece);
-                    }
-                }
+                of_polygons.add(polygon, piece, |one, other| match polygon {
+                    Some(_) => one.join_ring(other, side),
+                    None => one.join(other),
+                });
             }
         }
     }
-    pieces
+    let mut pieces: Pieces<()> = Pieces::new();
+    for (_, piece) in of_polygons.list {
+        pieces.add((), piece, Piece::join);
+    }
+    pieces.list.into_iter().map(|(_, piece)| piece).collect()
 }
 
 impl Piece {
-    /// Takes over the wishes of another line that runs here too, whichever comes first.
-    fn join(&mut self, other: &Self) {
+    /// The wishes of another line that runs here too (for slopes outside, for others) and its inside, as seen from this one.
+    fn seen(&self, other: &Self) -> (Option<[bool; 2]>, [bool; 2], [bool; 2]) {
         let same = self.ends == other.ends;
         let turned = |sides: [bool; 2]| if same { sides } else { [sides[1], sides[0]] };
-        let (outside, others, interior) = (other.outside.map(turned), turned(other.others), turned(other.interior));
+        (other.outside.map(turned), turned(other.others), turned(other.interior))
+    }
+
+    /// Takes over another ring of the same polygon that runs here too, as where a hole reaches the edge of its polygon: the inside of
+    /// the polygon has no width here, and no slopes inside.
+    fn join_ring(&mut self, other: &Self, side: Side) {
+        let (outside, others, interior) = self.seen(other);
+        for s in 0..2 {
+            self.interior[s] &= interior[s];
+            if let (Some(mine), Some(its)) = (&mut self.outside, outside) {
+                mine[s] |= its[s];
+            }
+            self.others[s] = if side == Side::Inside { self.others[s] && others[s] } else { self.others[s] || others[s] };
+        }
+        self.settle();
+    }
+
+    /// Takes over the wishes of another line that runs here too, whichever comes first.
+    fn join(&mut self, other: &Self) {
+        let (outside, others, interior) = self.seen(other);
         self.outside = match (self.outside, outside) {
             (Some([a, b]), Some([c, d])) => Some([a && c, b && d]),
             (one, other) => one.or(other),
@@ -343,6 +386,13 @@ impl Piece {
         for s in 0..2 {
             self.interior[s] |= interior[s];
             self.others[s] |= others[s];
+        }
+        self.settle();
+    }
+
+    /// Where slopes are wanted after all.
+    fn settle(&mut self) {
+        for s in 0..2 {
             // A platform has no slopes on it: lines along its edge have theirs on the other side only.
             let platform = self.outside.is_some() && self.interior[s];
             self.wanted[s] = !platform && (self.others[s] || self.outside.is_some_and(|outside| outside[s]));

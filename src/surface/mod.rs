@@ -25,7 +25,8 @@ use crate::mesh::check::HalfEdges;
 use crate::mesh::region::RegionError;
 use crate::mesh::volume;
 use crate::model::{Design, Extent, Line, LineFeature, Memory, Note, Part, Sheet as SheetKind, Tin, TooLarge};
-use crate::slope::closure::{FINER_SNAP, SNAP};
+use crate::slope::apart::sides_apart;
+use crate::slope::closure::{FINER_SNAP, SNAP, Scope};
 use crate::slope::emit::{self, Slopes};
 use crate::slope::facet::Kind;
 use crate::slope::fan::Fans;
@@ -333,9 +334,10 @@ fn made(line: &Line, design: &Design, plane: Option<&Plane>, watch: &dyn Watch) 
     let sheet = Sheet::new(&network, &fans, &index, k, ends.closure);
     let task =
         Task { line, design, plane, network: &network, ends: &ends, levels: &levels, sheet: &sheet, memory: watch.memory() };
+    let scope = if sides_apart(line, design, &sheet) { Scope::Wanted } else { Scope::All };
     let made = |snap: f64| {
         go_on("creases")?;
-        task.meshed(&solve::solve(&sheet, snap, watch)?, &go_on)
+        task.meshed(&solve::solve(&sheet, scope, snap, watch)?, &go_on)
     };
     match made(SNAP) {
         // Vertices taken for one may turn over the tips of very narrow strips.

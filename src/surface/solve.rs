@@ -27,8 +27,7 @@ pub(super) struct Solved {
 /// Closes and pairs the facets. What a first pass misses (a cone that just touches another sheet between two rulings) shows
 /// at the outer end or as an arc without a counterpart; rulings there are looked at in the next pass. Vertices closer than
 /// `snap` are one.
-pub(super) fn solve(sheet: &Sheet, snap: f64, watch: &dyn Watch) -> Result<Solved, SurfaceError> {
-    let mut scope = Scope::Wanted;
+pub(super) fn solve(sheet: &Sheet, mut scope: Scope, snap: f64, watch: &dyn Watch) -> Result<Solved, SurfaceError> {
     let mut hints: Vec<(FacetId, f64)> = Vec::new();
     let mut solved;
     let mut attempt = 0;

@@ -12,3 +12,4 @@ mod buried;
 mod extents;
 mod profiles;
 mod rings;
+mod sides;

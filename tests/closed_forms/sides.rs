@@ -1,0 +1,94 @@
+//! Slopes on one side of the line, where those of the other side are not built but are part of the sheet all the same; and polygons
+//! whose rings share a stretch.
+
+use crate::common::build::{design, line, on_both_sheets, open, polygon, rectangle, ring};
+use crate::common::measure::{close, height, plan_area};
+use slopegen::model::{Design, Extent, Part, Side};
+use slopegen::surface::{self, SurfaceError};
+use std::f64::consts::PI;
+
+/// A long line and a short one beside it, higher by 1. To the left of the long one its plane `−k·y` shows where the sheet of the other
+/// one, `1 − k·distance`, is not higher: also where that is the side of it that is not built. The rulings at the ends of the long
+/// line know nothing of it.
+#[test]
+fn the_other_side_of_a_line_beside_hides_what_it_covers() {
+    let (length, end, k) = (300.0, -5.0, 0.5);
+    for (from, to, aside) in [(70.0, 70.5, 5.0), (40.0, 60.0, 5.0), (100.0, 260.0, 1.5)] {
+        let lines = line(&[open(&[[0.0, 0.0, 0.0], [length, 0.0, 0.0]]), open(&[[from, aside, 1.0], [to, aside, 1.0]])]);
+        let left = Design { side_of_lines: Side::Left, ..design(k, Extent::Elevation(end)) };
+        on_both_sheets(&lines, &left, |surface| {
+            let (mut long, mut short) = (0, 0);
+            for (i, j) in (0..600).flat_map(|i| (0..60).map(move |j| (i, j))) {
+                // Off every edge and crease.
+                let (x, y) = (0.251 + 0.5 * f64::from(i), 0.0123 + 0.25 * f64::from(j));
+                let a = -k * y;
+                let b = 1.0 - k * (x - x.clamp(from, to)).hypot(y - aside);
+                if (a - b).abs() < 0.02 || (a.max(b) - end).abs() < 0.02 {
+                    continue;
+                }
+                let built = if a > b { a > end } else { b > end && y > aside && x > from && x < to };
+                let found = height(surface, x, y);
+                assert_eq!(found.is_some(), built, "({x}, {y}): {found:?}, the two at {a} and {b}");
+                if let Some(z) = found {
+                    close(z, a.max(b), 1e-9, "height");
+                    *(if a > b { &mut long } else { &mut short }) += 1;
+                }
+            }
+            assert!(long > 1000 && short > 5, "{long} and {short} places");
+        });
+    }
+}
+
+/// The long edge of a pad, level at 0, with a peak at the edge across, 2 away and 1.4 high: that stands `1.4 − 2k` above it, far from
+/// both of its ends.
+#[test]
+fn an_edge_under_the_peak_across_is_covered() {
+    let pad = line(&[ring(&[[0.0, 0.0, 0.0], [300.0, 0.0, 0.0], [300.0, 2.0, 0.0], [50.0, 2.0, 1.4], [0.0, 2.0, 0.0]])]);
+    for (k, depth) in [(2.0 / 3.0, Some("0.067")), (0.69, Some("0.020")), (0.71, None)] {
+        match (surface::build(&pad, &design(k, Extent::Height(5.0)), None, &()), depth) {
+            (Err(SurfaceError::PlatformCovered { x, what, .. }), Some(depth)) => {
+                close(x, 50.0, 1e-6, "place of the greatest depth");
+                assert!(what.contains(&format!("up to {depth} below")), "{what}");
+            }
+            (Ok(surface), None) => close(plan_area(&surface, Part::Platform), 600.0, 1e-9, "platform"),
+            (other, _) => panic!("slope {k}: {:?}", other.map(|s| s.certificate)),
+        }
+    }
+}
+
+/// A hole at the edge of a square of 20: with a strip of the square between the two, however narrow, there are slopes outside and in
+/// the hole. So there are where nothing is left of it. Slopes 1:1.5 of height 1 are 1.5 wide, and the hole of 8 by 4 keeps 5 by 1.
+#[test]
+fn a_hole_at_the_edge() {
+    let square = || rectangle([0.0, 0.0, 0.0], 20.0, 20.0);
+    let hole = |x: f64| rectangle([x, 4.0, 0.0], 8.0, 4.0);
+    let wide = 1.5;
+    for x in [0.0, 1e-3, 1.0, 12.0 - 1e-3, 12.0] {
+        let pad = polygon(&[square(), hole(x)]);
+        on_both_sheets(&pad, &design(1.0 / wide, Extent::Height(1.0)), |surface| {
+            close(plan_area(surface, Part::Platform), 400.0 - 32.0, 1e-6, "platform");
+            let slopes = 80.0 * wide + PI * wide * wide + 32.0 - 5.0 * 1.0;
+            let found = surface.areas.plan - plan_area(surface, Part::Platform);
+            // Chords of the corners.
+            assert!(found < slopes + 1e-6 && found > slopes - 0.1, "hole at {x}: {found} for {slopes}");
+        });
+    }
+    // Inside, slopes and floor fill what is left of the square.
+    for x in [0.0, 12.0] {
+        let pit = Design { side_of_rings: Side::Inside, ..design(1.0 / wide, Extent::Height(1.0)) };
+        on_both_sheets(&polygon(&[square(), hole(x)]), &pit, |surface| close(surface.areas.plan, 368.0, 1e-6, "pit"));
+    }
+}
+
+/// Two holes of 4 by 4 side by side: slopes run into both, from the edge they share too, and leave 1 by 1 of each.
+#[test]
+fn holes_side_by_side() {
+    let hole = |x: f64| rectangle([x, 4.0, 0.0], 4.0, 4.0);
+    let pad = polygon(&[rectangle([0.0, 0.0, 0.0], 20.0, 20.0), hole(4.0), hole(8.0)]);
+    on_both_sheets(&pad, &design(1.0 / 1.5, Extent::Height(1.0)), |surface| {
+        close(plan_area(surface, Part::Platform), 400.0 - 32.0, 1e-6, "platform");
+        let slopes = 80.0 * 1.5 + PI * 1.5 * 1.5 + 2.0 * 15.0;
+        let found = surface.areas.plan - plan_area(surface, Part::Platform);
+        assert!(found < slopes + 1e-6 && found > slopes - 0.1, "{found} for {slopes}");
+    });
+}
