@@ -26,7 +26,8 @@ pub(crate) const CONE_BOUND: f64 = 0.1;
 /// Slope triangles off by more than this (degrees) are counted.
 const COUNTED: f64 = 0.1;
 
-/// Triangles whose heights are compared with the closed form of the given line: at their corners and centroid.
+/// Triangles whose heights are compared with the closed form of the given line: at their corners and centroid, or where there are
+/// fewer at about as many places inside of them.
 const HEIGHT_SAMPLES: usize = 2048;
 
 /// Rounding allowed on top of the tolerance, relative to the largest coordinate.
@@ -187,11 +188,15 @@ fn height_deviation(line: &Line, design: &Design, body: &Body) -> f64 {
     let slopes = body.tin.parts.iter().filter(|&&p| p != Part::Platform).count();
     let step = slopes.div_ceil(HEIGHT_SAMPLES).max(1);
     let heights = Heights::new(line, design.slope, design.sheet);
+    // Few triangles may be large ones: each is then looked at in more places, the middles of a regular division.
+    let division = (1..).take_while(|n| n * (n + 1) / 2 * slopes.max(1) <= HEIGHT_SAMPLES).last().unwrap_or(1);
     let mut points = Vec::new();
     for t in (0..slopes).step_by(step) {
         let corners = body.tin.corners(t);
         points.extend(corners);
-        points.push((corners[0] + corners[1] + corners[2]) / 3.0);
+        let [a, b, c] = corners;
+        let places = (0..division).flat_map(|i| (0..division - i).map(move |j| [i, j].map(|i| i as f64 + 1.0 / 3.0)));
+        points.extend(places.map(|[u, v]| a + ((b - a) * u + (c - a) * v) / division as f64));
     }
     let places: Vec<DVec2> = points.iter().map(|&p| body.tin.frame.to_world(p).truncate()).collect();
     heights.many(&places).iter().zip(&points).map(|(h, p)| (h - p.z).abs()).fold(0.0, f64::max)
