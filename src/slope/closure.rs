@@ -108,7 +108,7 @@ fn sides_of(f: FacetId, key: Key) -> Option<(FacetId, FacetId)> {
 /// Which facets are closed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// Those that are wanted: enough where they never meet another (see [`super::apart`]).
+    /// Those that are wanted: enough where they never meet another.
     Wanted,
     /// All.
     All,

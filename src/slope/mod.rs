@@ -1,9 +1,10 @@
 //! The surface of constant slope: network, facets, trimming, closure, emission.
 
-pub mod apart;
 pub mod arcs;
 mod canonical;
+pub mod clear;
 pub mod closure;
+pub mod cover;
 pub mod emit;
 pub mod facet;
 pub mod fan;

@@ -70,7 +70,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// Whether facet `f` is part of the sheet of edge `e`: its strips, and the cones of its nodes.
-    fn belongs(&self, f: FacetId, e: u32) -> bool {
+    pub(super) fn belongs(&self, f: FacetId, e: u32) -> bool {
         match self.facet(f).kind {
             Kind::Strip(h) => h / 2 == e,
             Kind::Sector(node) => self.touches(e, node),

@@ -25,8 +25,8 @@ use crate::mesh::check::HalfEdges;
 use crate::mesh::region::RegionError;
 use crate::mesh::volume;
 use crate::model::{Design, Extent, Line, LineFeature, Memory, Note, Part, Sheet as SheetKind, Tin, TooLarge};
-use crate::slope::apart::sides_apart;
-use crate::slope::closure::{FINER_SNAP, SNAP, Scope};
+use crate::slope::closure::{FINER_SNAP, SNAP};
+use crate::slope::cover::Covers;
 use crate::slope::emit::{self, Slopes};
 use crate::slope::facet::Kind;
 use crate::slope::fan::Fans;
@@ -37,13 +37,16 @@ use crate::slope::size;
 use crate::slope::trim::{self, Sheet};
 use body::Body;
 
-use solve::Solved;
+use solve::{Ask, Solved};
 
 /// Share of the tolerance that simplifying the line may use.
 const SIMPLIFY_SHARE: f64 = 1.0 / 3.0;
 
 /// Share of the tolerance that chords of cones may use. The rest is reserve.
 const CHORD_SHARE: f64 = 1.0 / 3.0;
+
+/// Share of the tolerance by which another sheet may be higher than what is built.
+const CLEAR_SHARE: f64 = 1.0 / 8.0;
 
 /// How far beyond the outer distance the sheet is followed, relative to its depth there and at least this many length units.
 const BEYOND_REACH: f64 = 1e-3;
@@ -334,10 +337,11 @@ fn made(line: &Line, design: &Design, plane: Option<&Plane>, watch: &dyn Watch) 
     let sheet = Sheet::new(&network, &fans, &index, k, ends.closure);
     let task =
         Task { line, design, plane, network: &network, ends: &ends, levels: &levels, sheet: &sheet, memory: watch.memory() };
-    let scope = if sides_apart(line, design, &sheet) { Scope::Wanted } else { Scope::All };
+    let covers = Covers::find(&sheet);
     let made = |snap: f64| {
         go_on("creases")?;
-        task.meshed(&solve::solve(&sheet, scope, snap, watch)?, &go_on)
+        let ask = Ask { sheet: &sheet, covers: &covers, snap, slack: CLEAR_SHARE * design.tolerance };
+        task.meshed(&solve::solve(ask, watch)?, &go_on)
     };
     match made(SNAP) {
         // Vertices taken for one may turn over the tips of very narrow strips.

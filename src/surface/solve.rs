@@ -4,7 +4,9 @@ use super::{SurfaceError, Watch};
 use crate::kernel::orientation::{Turn, turn};
 use crate::kernel::segment_tree::SegmentTree;
 use crate::slope::arcs::Arcs;
+use crate::slope::clear;
 use crate::slope::closure::{self, Closure, Scope};
+use crate::slope::cover::Covers;
 use crate::slope::facet::{END, FacetId};
 use crate::slope::refine::WIDEST_WEDGE;
 use crate::slope::trim::Sheet;
@@ -24,12 +26,28 @@ pub(super) struct Solved {
     pub(super) arcs: Arcs,
 }
 
-/// Closes and pairs the facets. What a first pass misses (a cone that just touches another sheet between two rulings) shows
-/// at the outer end or as an arc without a counterpart; rulings there are looked at in the next pass. Vertices closer than
-/// `snap` are one.
-pub(super) fn solve(sheet: &Sheet, mut scope: Scope, snap: f64, watch: &dyn Watch) -> Result<Solved, SurfaceError> {
-    let mut hints: Vec<(FacetId, f64)> = Vec::new();
+/// How a sheet is closed.
+#[derive(Clone, Copy)]
+pub(super) struct Ask<'a> {
+    /// The sheet.
+    pub(super) sheet: &'a Sheet<'a>,
+    /// The stretches of the line that do not show.
+    pub(super) covers: &'a Covers,
+    /// Vertices closer than this (length units) are one.
+    pub(super) snap: f64,
+    /// Another sheet may be higher than what is built by this (length units).
+    pub(super) slack: f64,
+}
+
+/// Closes and pairs the facets. What a first pass misses (a cone that just touches another sheet between two rulings, a part that
+/// stands above the middle of a boundary) shows at the outer end, as an arc without a counterpart, or as an arc below another sheet;
+/// rulings there are looked at in the next pass.
+pub(super) fn solve(ask: Ask, watch: &dyn Watch) -> Result<Solved, SurfaceError> {
+    let Ask { sheet, covers, snap, slack } = ask;
+    let mut scope = Scope::Wanted;
+    let mut hints = between_covers(sheet, covers);
     let mut solved;
+    let mut intruded;
     let mut attempt = 0;
     loop {
         if watch.cancelled() {
@@ -41,6 +59,7 @@ pub(super) fn solve(sheet: &Sheet, mut scope: Scope, snap: f64, watch: &dyn Watc
             continue;
         }
         let arcs = Arcs::new(sheet, &closure, snap);
+        intruded = clear::intruded(sheet, &closure, &arcs, slack);
         solved = Solved { closure, arcs };
         attempt += 1;
         let before = hints.len();
@@ -50,24 +69,41 @@ pub(super) fn solve(sheet: &Sheet, mut scope: Scope, snap: f64, watch: &dyn Watc
         suspects.retain(|&(f, tau)| sheet.trim_facet(f, tau).partner != END);
         hints.extend(suspects);
         hints.extend(solved.beside_unpaired(sheet));
+        hints.extend(&intruded);
         hints.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         hints.dedup();
         if hints.len() == before || attempt == ATTEMPTS {
             break;
         }
     }
-    match solved.first_flaw() {
+    let below = intruded.first().map(|&(f, tau)| sheet.facet(f).foot(tau));
+    match solved.first_flaw().or(below) {
         None => Ok(solved),
         Some(place) => {
             let p = sheet.network.world(place);
             Err(SurfaceError::Unclosed {
                 x: p.x,
                 y: p.y,
-                unpaired: solved.arcs.unpaired.len() + solved.closure.stuck.len(),
+                unpaired: solved.arcs.unpaired.len() + solved.closure.stuck.len() + intruded.len(),
                 arcs: solved.arcs.arcs.len(),
             })
         }
     }
+}
+
+/// Rulings in the middle of each stretch of the line that shows, and of each that does not, on both sides, where there are both.
+fn between_covers(sheet: &Sheet, covers: &Covers) -> Vec<(FacetId, f64)> {
+    let mut hints = Vec::new();
+    for stretches in covers.edges() {
+        let e = stretches[0].0;
+        let length = sheet.index.segment(e).length;
+        let places = std::iter::once(0.0).chain(stretches.iter().flat_map(|s| s.1)).chain([length]);
+        let places: Vec<f64> = places.collect();
+        for s in places.windows(2).filter(|w| w[1] > w[0]).map(|w| 0.5 * (w[0] + w[1])) {
+            hints.extend([(2 * e, s), (2 * e + 1, length - s)]);
+        }
+    }
+    hints
 }
 
 impl Solved {
