@@ -17,7 +17,7 @@ pub struct Soundness {
     pub pinched: usize,
     /// Vertices no triangle uses.
     pub unused: usize,
-    /// Pairs of boundary edges that cross in plan, or else loops of the boundary inside which the mesh lies on itself: where
+    /// Places where boundary edges cross in plan, or else loops of the boundary inside which the mesh lies on itself: where
     /// there are none and all triangles are counter-clockwise, no two triangles overlap.
     pub overlaps: usize,
     /// A place of the first overlap.
@@ -180,6 +180,11 @@ impl<'a> Overlaps<'a> {
     fn crossings(&self, tree: &SegmentTree) -> (usize, Option<DVec2>) {
         let mut count = 0;
         let mut place = None;
+        let mut before = vec![0; self.boundary.len()];
+        for range in self.loops() {
+            before[range.start] = range.end - 1;
+            range.skip(1).for_each(|i| before[i] = i - 1);
+        }
         tree.pairs(|i, j| {
             let ([a, b], [c, d]) = (self.boundary[i], self.boundary[j]);
             if [a, b].contains(&c) || [a, b].contains(&d) {
@@ -189,13 +194,40 @@ impl<'a> Overlaps<'a> {
             let across = |a: DVec2, b: DVec2, c: DVec2, d: DVec2| {
                 matches!((turn(a, b, c), turn(a, b, d)), (Turn::Left, Turn::Right) | (Turn::Right, Turn::Left))
             };
-            if across(p, q, r, s) && across(r, s, p, q) {
+            let through = || self.passes_through(i, j, &before) || self.passes_through(j, i, &before);
+            if across(p, q, r, s) && across(r, s, p, q) || through() {
                 count += 1;
                 place.get_or_insert(0.5 * (p + q));
             }
             true
         });
         (count, place)
+    }
+
+    /// Whether the boundary passes through edge `j`, or a corner that begins with it, at the start of edge `i`; `before` tells the
+    /// edge that comes before each one.
+    fn passes_through(&self, i: usize, j: usize, before: &[usize]) -> bool {
+        let ((at, to), (c, d)) = (self.ends[i], self.ends[j]);
+        let from = self.ends[before[i]].0;
+        // The corner that it goes through: flat, within the edge.
+        let corner = if at == c {
+            self.ends[before[j]].0
+        } else if at != d && turn(c, d, at) == Turn::Straight && (at - c).dot(at - d) < 0.0 {
+            c
+        } else {
+            return false;
+        };
+        let side = |p: DVec2| {
+            let (first, second) = (turn(corner, at, p), turn(at, d, p));
+            match (turn(corner, at, d), first, second) {
+                (_, Turn::Straight, _) | (_, _, Turn::Straight) => Turn::Straight,
+                (Turn::Right, Turn::Right, Turn::Right) => Turn::Right,
+                (Turn::Right, ..) => Turn::Left,
+                (_, Turn::Left, Turn::Left) => Turn::Left,
+                _ => Turn::Right,
+            }
+        };
+        matches!((side(from), side(to)), (Turn::Left, Turn::Right) | (Turn::Right, Turn::Left))
     }
 
     /// Loops whose inner side does not have winding number one: a triangle mesh covers a place as often as its boundary winds
@@ -278,6 +310,24 @@ mod tests {
         let star = points(&[(0.0, 0.0), (4.0, 0.0), (2.0, 3.0), (0.0, 2.0), (2.0, -1.0), (4.0, 2.0)]);
         let crossed = checked(&star, &[[0, 1, 2], [3, 4, 5]]);
         assert_eq!((crossed.turned, crossed.overlaps), (0, 6));
+    }
+
+    /// A triangle whose corner lies on the side of another one, and reaches in or stays outside; corner on corner likewise.
+    #[test]
+    fn corners_that_pass_through_are_seen() {
+        let first = [(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)];
+        let with = |others: &[(f64, f64)], triangles: &[[u32; 3]]| {
+            let all: Vec<(f64, f64)> = first.iter().chain(others).copied().collect();
+            checked(&points(&all), &[&[[0, 1, 2], [0, 2, 3]], triangles].concat()).overlaps
+        };
+        // A strip across the side x = 8 whose vertices stand on it.
+        let strip = [(9.0, 2.0), (9.0, 4.0), (6.0, 4.0), (6.0, 2.0), (8.0, 4.0), (8.0, 2.0)];
+        assert_eq!(with(&strip, &[[9, 4, 5], [9, 5, 8], [7, 9, 8], [7, 8, 6]]), 2);
+        // In through a corner, and out through the side.
+        assert_eq!(with(&[(8.0, 8.0), (7.0, 5.0), (8.0, 4.0), (9.0, 6.0)], &[[4, 5, 6], [4, 6, 7]]), 2);
+        // Corner to corner and corner to side from outside.
+        assert_eq!(with(&[(8.0, 8.0), (9.0, 8.5), (8.5, 9.0)], &[[4, 5, 6]]), 0);
+        assert_eq!(with(&[(8.0, 4.0), (9.0, 3.0), (9.0, 5.0)], &[[4, 5, 6]]), 0);
     }
 
     #[test]

@@ -28,7 +28,7 @@ const TIE_WIDTH: f64 = 1e-15;
 /// Rounds of exchange before giving up; sound input needs fewer than ten.
 const MAX_ROUNDS: usize = 60;
 
-/// Steps one facet may take in a round, and per knot it starts with, before it is given up.
+/// Steps one facet may take in a round, and per edge of the line, before it is given up: it can meet all others.
 const MAX_STEPS: [usize; 2] = [1000, 4];
 
 /// Sectors are looked at from rulings at most this far apart (radians) before closure starts.
@@ -348,7 +348,7 @@ impl<'a> State<'a> {
             return Vec::new();
         }
         let knots = &mut boundary.knots;
-        let budget = MAX_STEPS[0] + MAX_STEPS[1] * knots.len();
+        let budget = MAX_STEPS[0] + MAX_STEPS[1] * self.sheet.network.edges.len();
         let mut steps = 0;
         let mut i = 0;
         while i + 1 < knots.len() {

@@ -56,7 +56,7 @@ fn covered(sheet: &Sheet, e: u32) -> Vec<[f64; 2]> {
     for (node, forward) in [(edge.a, true), (edge.b, false)] {
         for h in sheet.fans.leaving(node).iter().filter(|&&h| h / 2 != e) {
             if done.insert(h / 2) {
-                stretches.extend(Rise { own, other: sheet.index.segment(h / 2), k: sheet.k }.from_node(forward, h % 2 == 0));
+                stretches.extend(Rise { own, other: sheet.index.segment(h / 2), k: sheet.k }.at_node(forward, h % 2 == 0));
             }
         }
     }
@@ -122,7 +122,7 @@ impl Rise<'_> {
 
     /// The stretch that an edge at the same node covers: from the node on, if it rises there at all. `forward`: whether the node is
     /// where this edge starts; `outward`: whether it is where the other one does.
-    fn from_node(&self, forward: bool, outward: bool) -> Option<[f64; 2]> {
+    fn at_node(&self, forward: bool, outward: bool) -> Option<[f64; 2]> {
         let turned = |forth: bool| if forth { 1.0 } else { -1.0 };
         let along = self.own.u * turned(forward);
         let (u, rise) = (self.other.u * turned(outward), self.other.gamma * turned(outward));

@@ -227,22 +227,22 @@ impl Network {
                 .fold(flatter * STEEPEST_CHORD, f64::max);
             let kept = runs.kept_ends(&run);
             for chord in simplify::simplify(&points, kept, steeper, bound, steepest, CHORD_SPACING) {
-                self.add_chord(&run, &points, &chord, &mut used);
+                self.add_chord(&run, &points, &chord, steeper, &mut used);
             }
         }
         self.compact();
         self
     }
 
-    fn add_chord(&mut self, run: &Run, points: &[DVec3], chord: &Chord, used: &mut FxHashSet<[u32; 2]>) {
+    fn add_chord(&mut self, run: &Run, points: &[DVec3], chord: &Chord, slope: f64, used: &mut FxHashSet<[u32; 2]>) {
         let (a, b) = (run.nodes[chord.from], run.nodes[chord.to]);
         let pair = [a.min(b), a.max(b)];
         if chord.to - chord.from > 1 && used.contains(&pair) {
             // Two runs between the same nodes, closer together than the bound: keep them apart by a vertex of this one.
             let middle = usize::midpoint(chord.from, chord.to);
             for (from, to) in [(chord.from, middle), (middle, chord.to)] {
-                let part = simplify::foot_points(points, from, to);
-                self.add_chord(run, points, &Chord { from, to, dropped: part }, used);
+                let part = simplify::foot_points(points, from, to, slope);
+                self.add_chord(run, points, &Chord { from, to, dropped: part }, slope, used);
             }
             return;
         }

@@ -106,9 +106,18 @@ impl Segments {
                 && !joined
                 && let Some((at, p)) = meeting(ends[i].map(|v| points[v as usize]), ends[j].map(|v| points[v as usize]))
             {
-                let node = points.len() as u32;
-                points.push(p);
-                marks.extend([(i, at[0], node), (j, at[1], node)]);
+                let end_near = |s: usize| ends[s].into_iter().find(|&v| points[v as usize].distance(p) <= 2.0 * WELD_DISTANCE);
+                match (end_near(i), end_near(j)) {
+                    (None, None) => {
+                        let node = points.len() as u32;
+                        points.push(p);
+                        marks.extend([(i, at[0], node), (j, at[1], node)]);
+                    }
+                    // No piece gets shorter than what is welded.
+                    (Some(end), None) => marks.push((j, at[1], end)),
+                    (None, Some(end)) => marks.push((i, at[0], end)),
+                    (Some(_), Some(_)) => {}
+                }
             }
             true
         });
@@ -137,15 +146,26 @@ fn on_segment(p: DVec3, [a, b]: [DVec3; 2]) -> Option<f64> {
     (inside && p.distance(a.lerp(b, t)) <= WELD_DISTANCE).then_some(t)
 }
 
-/// Where two segments cross in plan at the same height: the places on both, and the point.
+/// Where two segments meet between their ends, in plan and height: the places on both, and the point.
 fn meeting([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> Option<([f64; 2], DVec3)> {
     let (u, v, w) = ((b - a).truncate(), (d - c).truncate(), (c - a).truncate());
-    let det = u.perp_dot(v);
-    let at = [w.perp_dot(v) / det, w.perp_dot(u) / det];
-    // Parallel segments give no number here; they meet at ends, if at all.
-    let crosses = at.iter().all(|t| *t > 0.0 && *t < 1.0);
+    let aside = |p: DVec3| u.perp_dot((p - a).truncate()).abs() / u.length();
+    let at = if aside(c).max(aside(d)) <= WELD_DISTANCE {
+        // They run over each other, and meet where the one comes up through the other.
+        let along = |p: DVec3| u.dot((p - a).truncate()) / u.length_squared();
+        let [from, to] = [along(c), along(d)];
+        let above = |p: DVec3, t: f64| p.z - (a.z + (b.z - a.z) * t);
+        let (first, last) = (above(c, from), above(d, to));
+        let part = first / (first - last);
+        [from + (to - from) * part, part]
+    } else {
+        let det = u.perp_dot(v);
+        [w.perp_dot(v) / det, w.perp_dot(u) / det]
+    };
+    // Parallel segments give no number here.
+    let meets = at.iter().all(|t| *t > 0.0 && *t < 1.0);
     let (p, q) = (a.lerp(b, at[0]), c.lerp(d, at[1]));
-    (crosses && (p.z - q.z).abs() <= WELD_DISTANCE).then_some((at, p))
+    (meets && (p.z - q.z).abs() <= WELD_DISTANCE).then_some((at, p))
 }
 
 #[cfg(test)]
@@ -188,6 +208,21 @@ mod tests {
             .collect();
         let chains: Vec<&[[f64; 3]]> = star.iter().map(|s| &s[..]).collect();
         assert_eq!(count(&line(&chains)), (15, 14));
+    }
+
+    /// Lines that run over each other in plan and cross in height; and two that cross within what is welded of an end.
+    #[test]
+    fn lines_over_each_other_meet_where_they_cross() {
+        for turn in [0.0_f64, 0.3, 1.1] {
+            let (sin, cos) = turn.sin_cos();
+            let at = |x: f64, z: f64| [x * cos, x * sin, z];
+            assert_eq!(count(&line(&[&[at(0.0, 0.0), at(10.0, 0.0)], &[at(2.0, -1.0), at(8.0, 1.0)]])), (5, 4));
+            // Above each other all the way, and apart.
+            assert_eq!(count(&line(&[&[at(0.0, 0.0), at(10.0, 0.0)], &[at(2.0, 0.5), at(8.0, 1.0)]])), (4, 2));
+            assert_eq!(count(&line(&[&[at(0.0, 0.0), at(3.0, 0.0)], &[at(4.0, -1.0), at(8.0, 1.0)]])), (4, 2));
+        }
+        let near = [[1.2e-6, -10.0, 0.0], [1.2e-6, 10.0, 1.9e-6]];
+        assert_eq!(count(&line(&[&[[0.0, 0.0, 0.0], [10.0, 0.0, 0.0]], &near])), (4, 3));
     }
 
     /// A line that runs back over itself, crossed where rounding gives the two ways different heights.

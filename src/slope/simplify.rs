@@ -72,16 +72,21 @@ fn straight(run: &[DVec3], slope: f64, steepest: f64, spacing: f64) -> usize {
     to
 }
 
-/// The vertices between `from` and `to` moved onto the chord, whatever their error (measured in height and plan alike).
-pub fn foot_points(run: &[DVec3], from: usize, to: usize) -> Vec<Dropped> {
+/// The vertices between `from` and `to` moved onto the chord, whatever their error.
+pub fn foot_points(run: &[DVec3], from: usize, to: usize, slope: f64) -> Vec<Dropped> {
     let (a, b) = (run[from], run[to]);
     let chord = (b - a).truncate();
     (from + 1..to)
         .map(|index| {
             let along = (run[index] - a).truncate().dot(chord) / chord.length_squared();
-            Dropped { index, along, error: (run[index] - a.lerp(b, along)).length() }
+            Dropped { index, along, error: error(run[index] - a.lerp(b, along), slope) }
         })
         .collect()
+}
+
+/// What a displacement may change of heights.
+fn error(off: DVec3, slope: f64) -> f64 {
+    off.z.abs() + slope * off.truncate().length()
 }
 
 /// The dropped vertices of chord `from`–`to`, or the vertex at which to split it.
@@ -104,7 +109,7 @@ fn split_at(
     for (i, p) in run.iter().enumerate().take(to).skip(from + 1) {
         let along = if length_squared > 0.0 { ((p - a).truncate().dot(chord) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
         let off = *p - a.lerp(b, along);
-        let error = off.z.abs() + slope * off.truncate().length();
+        let error = error(off, slope);
         if error > worst.0 {
             worst = (error, Some(i));
         }
@@ -125,7 +130,7 @@ fn split_at(
             return Err(index);
         }
         let off = *p - a.lerp(b, along);
-        dropped.push(Dropped { index, along, error: off.z.abs() + slope * off.truncate().length() });
+        dropped.push(Dropped { index, along, error: error(off, slope) });
         last = along;
     }
     Ok(dropped)

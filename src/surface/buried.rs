@@ -3,8 +3,8 @@
 use super::stations::Stations;
 use crate::model::{Chain, Design, Line, Note, Sheet as SheetKind, Slope};
 use crate::sheet::Segment;
-use crate::slope::closure::Closure;
-use crate::slope::network::{Edge, Network, twin};
+use crate::slope::cover::Covers;
+use crate::slope::network::{Edge, Network};
 use crate::slope::trim::Sheet;
 use glam::{DVec2, DVec3};
 
@@ -79,22 +79,38 @@ struct Part {
     stations: [f64; 2],
 }
 
-/// Stretches of edge `e` that do not show, as distances from its start.
-pub(crate) fn covered_ranges(sheet: &Sheet, closure: &Closure, e: u32) -> Vec<[f64; 2]> {
-    let Some(f) = [2 * e, 2 * e + 1].into_iter().find(|&f| !closure.knots[f as usize].is_empty()) else { return Vec::new() };
-    let length = sheet.facet(f).tau_max;
-    let covered = closure.knots[f as usize].windows(2).filter(|w| w[0].right == twin(f));
-    covered.map(|w| if f % 2 == 0 { [w[0].tau, w[1].tau] } else { [length - w[1].tau, length - w[0].tau] }).collect()
+/// Stretches of edge `e` that do not show, as distances from its start, in order: below other parts (`true`), and below the end of
+/// the slope.
+pub(crate) fn hidden(sheet: &Sheet, covers: &Covers, e: u32) -> Vec<([f64; 2], bool)> {
+    let segment = sheet.index.segment(e);
+    let covered = covers.of(e);
+    let mut hidden: Vec<([f64; 2], bool)> = covered.iter().map(|c| (c.1, true)).collect();
+    // Where it lies below the end, and shows all the same.
+    let to_end = (sheet.end - segment.za) / segment.gamma;
+    let [mut from, to] = match [segment.za, segment.zb].map(|z| z <= sheet.end) {
+        [true, true] => [0.0, segment.length],
+        [true, false] => [0.0, to_end],
+        [false, true] => [to_end, segment.length],
+        [false, false] => return hidden,
+    };
+    for [cover_from, cover_to] in covered.iter().map(|c| c.1) {
+        if cover_to > from && cover_from < to {
+            hidden.push(([from, cover_from], false));
+            from = cover_to;
+        }
+    }
+    hidden.push(([from, to], false));
+    hidden.retain(|(s, _)| s[1] > s[0]);
+    hidden.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+    hidden
 }
 
-/// Finds the covered stretches of a closed sheet.
-pub(crate) fn stretches(line: &Line, sheet: &Sheet, closure: &Closure) -> Found {
+/// Finds the covered stretches of a sheet.
+pub(crate) fn stretches(line: &Line, sheet: &Sheet, covers: &Covers) -> Found {
     let stations = OnEdges::new(line, sheet.network);
     let mut parts: Vec<(usize, Part)> = Vec::new();
     for (e, edge) in sheet.network.edges.iter().enumerate() {
-        for s in covered_ranges(sheet, closure, e as u32).into_iter().filter(|s| s[1] - s[0] > SHORTEST) {
-            let middle = on(sheet, edge, 0.5 * (s[0] + s[1]));
-            let covered = sheet.index.height(middle.truncate(), None).0 > middle.z + TOUCHING;
+        for (s, covered) in hidden(sheet, covers, e as u32).into_iter().filter(|(s, _)| s[1] - s[0] > SHORTEST) {
             let mut at = s.map(|s| stations.station(e, s));
             if edge.against {
                 at.reverse();
@@ -112,6 +128,9 @@ pub(crate) fn stretches(line: &Line, sheet: &Sheet, closure: &Closure) -> Found 
         let (chain, from, to) = (group[0].0, group[0].1.stations[0], group[group.len() - 1].1.stations[1]);
         if group[0].1.covered {
             let mut stretch = describe(sheet, &stations, chain, [from, to], group);
+            if stretch.depth <= TOUCHING {
+                continue;
+            }
             [stretch.from, stretch.to] = on_line(chain, [from, to]);
             stretch.by_station = on_line(stretch.by_chain, [stretch.by_station; 2])[0];
             found.stretches.push(stretch);

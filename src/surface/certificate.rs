@@ -2,12 +2,13 @@
 
 use super::SurfaceError;
 use super::body::Body;
-use super::buried::covered_ranges;
+use super::buried::hidden;
 use crate::kernel::orientation::{Turn, turn};
 use crate::mesh::check::{self, HalfEdges, Soundness};
 use crate::model::{Design, Line, Part, Tin};
 use crate::sheet::Heights;
-use crate::slope::closure::{Closure, SNAP};
+use crate::slope::closure::SNAP;
+use crate::slope::cover::Covers;
 use crate::slope::trim::Sheet;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -65,7 +66,7 @@ pub(crate) fn measure(
     body: &Body,
     edges: &HalfEdges,
     open: &[[u32; 2]],
-    closure: &Closure,
+    covers: &Covers,
 ) -> Result<Certificate, SurfaceError> {
     let (soundness, height_max_deviation) = rayon::join(
         || check::check_with(&body.tin.vertices, &body.tin.triangles, edges, open),
@@ -75,7 +76,7 @@ pub(crate) fn measure(
         paired: true,
         manifold: soundness.manifold(),
         overlaps: soundness.overlaps,
-        input_edges_kept: edges_kept(sheet, body, edges, closure),
+        input_edges_kept: edges_kept(sheet, body, edges, covers),
         height_max_deviation,
         ..Certificate::default()
     }
@@ -203,7 +204,7 @@ fn height_deviation(line: &Line, design: &Design, body: &Body) -> f64 {
 }
 
 /// Whether consecutive points of every edge with a wanted side are joined by mesh edges, where the edge shows.
-fn edges_kept(sheet: &Sheet, body: &Body, edges: &HalfEdges, closure: &Closure) -> bool {
+fn edges_kept(sheet: &Sheet, body: &Body, edges: &HalfEdges, covers: &Covers) -> bool {
     sheet.network.edges.par_iter().zip(&body.edge_points).enumerate().all(|(e, (edge, points))| {
         if !(edge.wanted[0] || edge.wanted[1]) {
             return true;
@@ -211,12 +212,7 @@ fn edges_kept(sheet: &Sheet, body: &Body, edges: &HalfEdges, closure: &Closure) 
         points.windows(2).all(|w| {
             let used = w.iter().all(|p| p.id != u32::MAX);
             let joined = used && (edges.has(w[0].id, w[1].id) || edges.has(w[1].id, w[0].id));
-            joined || covered(sheet, closure, e as u32, [w[0].s, w[1].s])
+            joined || hidden(sheet, covers, e as u32).iter().any(|(s, _)| (s[0]..=s[1]).contains(&(0.5 * (w[0].s + w[1].s))))
         })
     })
-}
-
-/// Whether a covered stretch of edge `e` meets the one between two of its points.
-fn covered(sheet: &Sheet, closure: &Closure, e: u32, [from, to]: [f64; 2]) -> bool {
-    covered_ranges(sheet, closure, e).iter().any(|r| r[0] < to && from < r[1])
 }

@@ -3,11 +3,12 @@
 use super::SurfaceError;
 use super::buried::{Found, freeing};
 use super::formation::{Roads, Threads};
+use crate::kernel::segment_tree::SegmentTree;
 use crate::mesh::check::HalfEdges;
 use crate::mesh::region::{self, RegionError};
 use crate::model::{Chain, Design, Extent, Line, Note, Role, Sheet, Side};
 use crate::slope::emit::{Slopes, Trace};
-use crate::slope::network::Network;
+use crate::slope::network::{Edge, Network};
 use rustc_hash::FxHashSet;
 
 /// Flat parts, in numbers of the emission.
@@ -23,20 +24,61 @@ pub(super) struct Flats {
     pub(super) notes: Vec<Note>,
 }
 
-/// Fills platforms (inside rings that slope outwards) or the floor (where slopes inside rings end). Vertices of breaklines are
-/// added to the points of `slopes`.
-pub(super) fn fill(
-    line: &Line,
-    design: &Design,
-    network: &Network,
-    slopes: &mut Slopes,
-    hidden: &Found,
-) -> Result<Flats, SurfaceError> {
-    let outline = platform_outline(network, slopes);
-    if !outline.is_empty() {
+/// Whether edge `edge` bounds a platform on side `side`: the unsloped inside of a ring.
+fn bounds_platform(edge: &Edge, side: usize) -> bool {
+    edge.interior[side] && !edge.wanted[side]
+}
+
+/// Whether there are slopes inside rings only.
+fn only_inside(line: &Line, design: &Design) -> bool {
+    design.side_of_rings == Side::Inside && line.chains.iter().all(|c| c.closed())
+}
+
+/// Refuses platforms and rims that slopes pass over.
+pub(super) fn refuse_covered(line: &Line, design: &Design, network: &Network, hidden: &Found) -> Result<(), SurfaceError> {
+    if network.edges.iter().any(|edge| bounds_platform(edge, 0) || bounds_platform(edge, 1)) {
+        keep_off(line, network)?;
         if let Some(b) = hidden.stretches.iter().find(|b| line.chains[b.chain].closed()) {
             return Err(SurfaceError::PlatformCovered { x: b.at.x, y: b.at.y, what: b.told(line, design) });
         }
+    } else if only_inside(line, design) {
+        keep_inside(line, design, hidden)?;
+    }
+    Ok(())
+}
+
+/// Refuses lines that run over a platform: their slopes would pass over it. Along its edge they may run.
+fn keep_off(line: &Line, network: &Network) -> Result<(), SurfaceError> {
+    let outline: Vec<usize> =
+        (0..network.edges.len()).filter(|&e| (0..2).any(|side| bounds_platform(&network.edges[e], side))).collect();
+    let plan = |node: u32| network.nodes[node as usize].truncate();
+    let ends: Vec<_> = outline.iter().map(|&e| (plan(network.edges[e].a), plan(network.edges[e].b))).collect();
+    let tree = SegmentTree::new(&ends);
+    // With the platform on one side only; those with one on both sides are inside of it.
+    let bounds: Vec<bool> =
+        outline.iter().map(|&e| bounds_platform(&network.edges[e], 0) != bounds_platform(&network.edges[e], 1)).collect();
+    for edge in network.edges.iter().filter(|edge| edge.interior == [false; 2]) {
+        let chain = &line.chains[edge.given[0].chain as usize];
+        let middle = 0.5 * (plan(edge.a) + plan(edge.b));
+        let mut inside = false;
+        tree.ray(middle, |i| {
+            let (a, b) = ends[i];
+            let left = (b - a).perp_dot(middle - a) > 0.0;
+            inside ^= bounds[i] && (a.y > middle.y) != (b.y > middle.y) && left == (b.y > a.y);
+        });
+        if inside && !chain.closed() {
+            let at = network.world(middle.extend(0.0));
+            return Err(SurfaceError::LineOnPlatform { name: chain.name.clone(), x: at.x, y: at.y });
+        }
+    }
+    Ok(())
+}
+
+/// Fills platforms (inside rings that slope outwards) or the floor (where slopes inside rings end). Vertices of breaklines are
+/// added to the points of `slopes`.
+pub(super) fn fill(line: &Line, design: &Design, network: &Network, slopes: &mut Slopes) -> Result<Flats, SurfaceError> {
+    let outline = platform_outline(network, slopes);
+    if !outline.is_empty() {
         return platform(line, network, slopes, outline).map_err(|cause| flat_error(network, "platform", cause));
     }
     let mut flats = Flats::default();
@@ -44,11 +86,9 @@ pub(super) fn fill(
         let text = format!("breaklines and spot heights without a platform to shape: {}", line.breaklines.len());
         flats.notes.push(Note::new("breaklines-unused", text));
     }
-    let only_inside = design.side_of_rings == Side::Inside && line.chains.iter().all(|c| c.closed());
-    if !only_inside {
+    if !only_inside(line, design) {
         return Ok(flats);
     }
-    keep_inside(line, design, hidden)?;
     let rim = rim(slopes);
     if rim.is_empty() {
         return Ok(flats);
@@ -116,7 +156,7 @@ fn platform_outline(network: &Network, slopes: &Slopes) -> Vec<Piece> {
     let mut outline = Vec::new();
     for (e, (edge, inner)) in network.edges.iter().zip(&slopes.edge_points).enumerate() {
         for side in 0..2 {
-            if !edge.interior[side] || edge.wanted[side] {
+            if !bounds_platform(edge, side) {
                 continue;
             }
             let mut ids: Vec<u32> = vec![edge.a];

@@ -100,6 +100,19 @@ pub enum SurfaceError {
         /// The covered stretch in words.
         what: String,
     },
+    /// A line runs over the platform of a ring.
+    #[error(
+        "`{name}` runs over a platform near ({x:.3}, {y:.3})\n   = its slopes would pass over the platform\n   = help: shape the platform \
+         with it (a breakline), or build the two one by one"
+    )]
+    LineOnPlatform {
+        /// The line.
+        name: String,
+        /// Place.
+        x: f64,
+        /// Place.
+        y: f64,
+    },
     /// Slopes inside a ring pass over another place of it, and would go on outside.
     #[error("the slopes inside a ring pass over its own edge near ({x:.3}, {y:.3})\n   = {what}\n   = help: {cure}")]
     RimCovered {
@@ -301,6 +314,7 @@ pub fn build(line: &Line, design: &Design, reference: Option<f64>, watch: &dyn W
         surface.notes.extend(joggle.map(joggle_note));
         Ok(surface)
     })
+    .map_err(|error| if watch.cancelled() { SurfaceError::Cancelled } else { error })
 }
 
 /// The same surface with its certificate, but without line work, areas and volumes: for those who cut it first.
@@ -335,9 +349,21 @@ fn made(line: &Line, design: &Design, plane: Option<&Plane>, watch: &dyn Watch) 
     let fans = Fans::new(&network, k);
     let index = trim::index_of(&network, k);
     let sheet = Sheet::new(&network, &fans, &index, k, ends.closure);
-    let task =
-        Task { line, design, plane, network: &network, ends: &ends, levels: &levels, sheet: &sheet, memory: watch.memory() };
     let covers = Covers::find(&sheet);
+    let buried = buried::stretches(line, &sheet, &covers);
+    flats::refuse_covered(line, design, &network, &buried)?;
+    let task = Task {
+        line,
+        design,
+        plane,
+        network: &network,
+        ends: &ends,
+        levels: &levels,
+        sheet: &sheet,
+        covers: &covers,
+        buried: &buried,
+        memory: watch.memory(),
+    };
     let made = |snap: f64| {
         go_on("creases")?;
         let ask = Ask { sheet: &sheet, covers: &covers, snap, slack: CLEAR_SHARE * design.tolerance };
@@ -346,8 +372,8 @@ fn made(line: &Line, design: &Design, plane: Option<&Plane>, watch: &dyn Watch) 
     match made(SNAP) {
         // Vertices taken for one may turn over the tips of very narrow strips.
         Err(flaw) if flaw.is_flaw() => match made(FINER_SNAP) {
-            Err(SurfaceError::Cancelled) => Err(SurfaceError::Cancelled),
-            finer => finer.map_err(|_| flaw),
+            Err(finer) if finer.is_flaw() => Err(flaw),
+            finer => finer,
         },
         made => made,
     }
@@ -362,6 +388,8 @@ struct Task<'a> {
     ends: &'a Ends,
     levels: &'a Levels,
     sheet: &'a Sheet<'a>,
+    covers: &'a Covers,
+    buried: &'a buried::Found,
     memory: Memory,
 }
 
@@ -372,7 +400,7 @@ impl Task<'_> {
         solved: &Solved,
         go_on: &impl Fn(&'static str) -> Result<(), SurfaceError>,
     ) -> Result<Surface, SurfaceError> {
-        let Self { line, design, plane, network, ends, levels, sheet, memory } = *self;
+        let Self { line, design, plane, network, ends, levels, sheet, covers, buried, memory } = *self;
         go_on("mesh")?;
         let cut = Cut { levels, chord: CHORD_SHARE * design.tolerance, reach: ends.reach };
         room::for_mesh(line, size::least_triangles(sheet, &solved.closure, &solved.arcs, &cut), &memory)?;
@@ -386,8 +414,7 @@ impl Task<'_> {
             return Err(SurfaceError::Unsound { what: format!("a strip at ({:.3}, {:.3}) could not be triangulated", p.x, p.y) });
         }
         room::for_mesh(line, slopes.triangles.len() as u64, &memory)?;
-        let buried = buried::stretches(line, sheet, &solved.closure);
-        let flats = flats::fill(line, design, network, &mut slopes, &buried)?;
+        let flats = flats::fill(line, design, network, &mut slopes)?;
         go_on("certificate")?;
         let body = Body::new(network, design, &slopes, &flats);
         let ((feet, foot_of), (marks, edges)) = rayon::join(
@@ -398,7 +425,7 @@ impl Task<'_> {
         let heights: Vec<f64> = levels.heights.iter().map(|c| network.sign * c).collect();
         let open = edges.open();
         let (certificate, lines) = rayon::join(
-            || certificate::measure(line, design, sheet, &body, &edges, &open, &solved.closure),
+            || certificate::measure(line, design, sheet, &body, &edges, &open, covers),
             || plane.map_or_else(Vec::new, |_| curves::lines(line, &heights, &body.tin, &marks, &open)),
         );
         let certificate = certificate?;
@@ -427,7 +454,7 @@ impl Task<'_> {
             simplified: network.simplified,
             collinear: network.collinear,
             simplified_max: network.simplified_max,
-            buried: buried.stretches,
+            buried: buried.stretches.clone(),
             certificate,
             areas,
             volumes,

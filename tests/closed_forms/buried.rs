@@ -198,3 +198,69 @@ fn pits_side_by_side_and_covered_holes() {
     // A pyramid of 30 · 30 and 7.5 deep.
     close(built.volumes.cut, 900.0 * 7.5 / 3.0, 1e-9 * 2250.0, "volume");
 }
+
+/// Level lines across a level one, 8 higher, fall to it `8n` beside them: three stretches of it are covered, and what lies between
+/// them shows, however far from its ends.
+#[test]
+fn what_lies_between_two_covered_stretches_shows() {
+    let (k, high) = (0.5, 8.0);
+    let across = |x: f64| open(&[[x, -60.0, high], [x, 60.0, high]]);
+    for from in [0.0, 45.0] {
+        let given = line(&[open(&[[from, 0.0, 0.0], [250.0, 0.0, 0.0]]), across(50.0), across(90.0), across(130.0)]);
+        on_both_sheets(&given, &design(k, Extent::Elevation(-10.0)), |surface| {
+            let half = high / k;
+            let stretches: Vec<[f64; 2]> = surface.buried.iter().map(|b| [b.from + from, b.to + from]).collect();
+            assert_eq!(stretches.len(), 3, "{stretches:?}");
+            for (stretch, middle) in stretches.iter().zip([50.0, 90.0, 130.0]) {
+                close(stretch[0], (middle - half).max(from), EXACT, "entry");
+                close(stretch[1], middle + half, EXACT, "exit");
+            }
+            assert!(surface.notes.is_empty(), "{:?}", surface.notes);
+            for x in [70.0, 67.0, 110.0, 113.0, 200.0] {
+                close(height(surface, x, 0.0).expect("inside"), 0.0, EXACT, "what shows");
+                let beside = [50.0, 90.0, 130.0].map(|a| high - k * (x - a).abs()).into_iter().fold(-1.0, f64::max);
+                close(height(surface, x, 2.0).expect("inside"), beside, EXACT, "beside it");
+            }
+        });
+    }
+}
+
+/// A stretch that dips below the end of the slope, next to one that is covered there: each is told for what it is.
+#[test]
+fn beyond_the_end_is_not_covered() {
+    // From 0 down to −20 at x = 100; the end at −10 is half way. A level line across at x = 30, 4 above it, at −2.
+    let given = line(&[open(&[[0.0, 0.0, 0.0], [100.0, 0.0, -20.0]]), open(&[[30.0, -60.0, -2.0], [30.0, 60.0, -2.0]])]);
+    on_both_sheets(&given, &design(0.5, Extent::Elevation(-10.0)), |surface| {
+        let [stretch] = &surface.buried[..] else { panic!("{:?}", surface.buried) };
+        // −x/5 = −2 − |x − 30|/2 on either side.
+        close(stretch.from, 17.0 / 0.7, EXACT, "entry");
+        close(stretch.to, 13.0 / 0.3, EXACT, "exit");
+        let below = surface.notes.iter().find(|note| note.code == "line-beyond-end").expect("a note");
+        assert!(below.message.starts_with("50.000 of the line"), "{}", below.message);
+    });
+}
+
+/// Lines that run over each other in plan and cross in height: each shows where it is the higher one.
+#[test]
+fn the_higher_of_two_lines_over_each_other_shows() {
+    let given = line(&[open(&[[0.0, 0.0, 0.0], [10.0, 0.0, 0.0]]), open(&[[2.0, 0.0, -1.0], [8.0, 0.0, 1.0]])]);
+    on_both_sheets(&given, &design(0.5, Extent::Elevation(-5.0)), |surface| {
+        // The last one lies on the cone at the end of the line that rises, which is built of chords.
+        for (x, z, bound) in [(1.0, 0.0, EXACT), (4.9, 0.0, EXACT), (5.3, 0.1, EXACT), (7.4, 0.8, EXACT), (9.9, 0.05, 2e-3)] {
+            close(height(surface, x, 0.0).expect("inside"), z, bound, "the higher one");
+        }
+        assert_eq!(surface.buried.len(), 2, "{:?}", surface.buried);
+    });
+}
+
+/// A line over a platform is no part of it, and its slopes may not pass over it.
+#[test]
+fn a_line_over_a_platform_is_refused() {
+    for (z, to) in [(1.0, 60.0), (0.0, 60.0), (1.0, 150.0)] {
+        let given = line(&[rectangle([0.0, 0.0, 0.0], 100.0, 100.0), open(&[[40.0, 50.0, z], [to, 50.0, z]])]);
+        match surface::build(&given, &design(0.5, Extent::Elevation(-5.0)), None, &()) {
+            Err(SurfaceError::LineOnPlatform { name, .. }) => assert_eq!(name, "line 2"),
+            other => panic!("{z} {to}: {:?}", other.map(|s| s.certificate)),
+        }
+    }
+}

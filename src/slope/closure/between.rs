@@ -28,6 +28,10 @@ impl State<'_> {
             let (tau, _) = self.sheet.facet(f).parameters(self.vertices[vertex as usize].truncate());
             return Between::Vertex { tau: held(tau, [a.tau, b.tau]), left: ka, right: kb, vertex };
         }
+        if self.sheet.joint_between(ka, kb).is_some() {
+            // The other way round neighbours touch along their ruling and do not cross there: what algebra finds is rounding.
+            return self.hint_by_looking(f, a, b, 0.5 * (a.tau + b.tau));
+        }
         let root = junction::root(self.sheet, f, ka, kb, a.tau, b.tau);
         let tau = root.unwrap_or(0.5 * (a.tau + b.tau));
         if width > 0.0 && root.is_some() {
