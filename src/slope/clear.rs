@@ -2,13 +2,14 @@
 //!
 //! Another sheet that comes up over a ruling stays above it, and rises ever further above it: every sheet falls by the slope at
 //! most, and the ruling by the slope. So a facet whose far boundary is nowhere lower than another sheet, but for some slack, is so
-//! nowhere. Sheets are concave: between two places of a straight piece of boundary they lie below their tangents there.
+//! nowhere. Sheets are concave: between two places of a straight piece of boundary they lie below their tangents there. Far from
+//! two nodes their cones are all but parallel: that bounds what edges close to a node gain on its cone along a curved piece.
 
 use super::arcs::{Arcs, Piece};
 use super::closure::Closure;
 use super::facet::{END, FacetId};
 use super::trim::Sheet;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 /// Pieces shorter than this (length units) are not parted further.
@@ -19,6 +20,12 @@ const MAX_PARTS: usize = 20_000;
 
 /// The curve between two places leaves the chord by no more than this many times what it does in the middle.
 const BULGE: f64 = 2.0;
+
+/// Edges within this part of the distance of a node are close to it.
+const CLOSE: f64 = 0.4;
+
+/// The chord of an angle is no longer than its sine times this, for edges that are [`CLOSE`].
+const SINE_TO_CHORD: f64 = 1.1;
 
 /// Places of far boundaries that lie lower than another sheet by more than `slack` (length units): facet and `τ`. None if there are
 /// none, proved for every place of every boundary.
@@ -93,6 +100,11 @@ impl Look<'_> {
         let bulge = BULGE * (sheet.k * aside + lower);
         let fall = 0.5 * (sheet.k * length + (to.point.z - from.point.z).abs());
         let floor = straight.z + self.slack - fall - bulge;
+        let cone = [f, partner].into_iter().filter(|&g| g != END).map(|g| sheet.facet(g)).find(|facet| !facet.is_strip());
+        let ends = [from.point, to.point].map(DVec3::truncate);
+        let nearest = |q: DVec2| ends.map(|p| p.distance(q)).into_iter().fold(middle.truncate().distance(q), f64::min) - aside;
+        let reach = ends.map(|p| p.distance(middle.truncate())).into_iter().fold(0.0, f64::max);
+        let cone = cone.map(|facet| facet.origin).map(|apex| (apex, nearest(apex)));
         let (mut unclear, mut below) = (false, false);
         sheet.index.visit_above(straight.truncate(), floor, |other| {
             if below || sheet.belongs(f, other) || (partner != END && sheet.belongs(partner, other)) {
@@ -111,10 +123,17 @@ impl Look<'_> {
             } else {
                 a.0 + a.1 * (b.0 - a.0 + b.1) / (a.1 + b.1)
             };
-            if highest + bulge > self.slack {
-                unclear = true;
-                below |= segment.height(middle.truncate(), sheet.k) - middle.z > self.slack;
+            if highest + bulge <= self.slack {
+                return;
             }
+            let above = segment.height(middle.truncate(), sheet.k) - middle.z;
+            below |= above > self.slack;
+            unclear |= cone.is_none_or(|(apex, nearest)| {
+                // The rulings of the two to a place are at an angle of which this is the sine, at most.
+                let away = segment.a.distance(apex).max(segment.b.distance(apex));
+                let sine = away / (nearest - away);
+                away > CLOSE * nearest || above + SINE_TO_CHORD * sine * sheet.k * reach > self.slack
+            });
         });
         match (below, unclear && length > SHORTEST) {
             (true, _) => Part::Below,
