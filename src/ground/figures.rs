@@ -1,11 +1,11 @@
 //! From the works to what is written: meshes, line work, figures and the certificate.
 
-use super::build::met as meets_ground;
 use super::cell::{Label, TOUCH, class};
 use super::certificate::certificate;
 use super::feeder::Fed;
 use super::finished::Left;
 use super::nodes::{Nodes, WELD};
+use super::open_ends;
 use super::patch::{NONE, Patch};
 use super::patchwork::Patchwork;
 use super::shape::Shape;
@@ -124,7 +124,7 @@ pub(crate) fn ground(found: &Found) -> Result<(Ground, Option<Patchwork>), Groun
         levels: levels(found, &lines),
         lines,
         daylight: daylight(found),
-        complete: found.covered && meets_ground(found.works, found.designs),
+        complete: found.covered && open_ends::met(found.works, found.designs),
         tallied: found.fed.tallied.clone(),
         sections: found.fed.sections.clone(),
         stations: found.stations.clone(),

@@ -11,6 +11,7 @@ mod figures;
 mod finished;
 pub mod haul;
 mod nodes;
+mod open_ends;
 mod patch;
 mod patchwork;
 pub mod piece;
@@ -22,6 +23,7 @@ pub mod stations;
 pub mod tally;
 mod thinned;
 mod trimmed;
+mod uncovered;
 mod works;
 
 #[cfg(test)]

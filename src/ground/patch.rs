@@ -1,7 +1,9 @@
 //! The part of the ground that the works can touch, with neighbours.
 
+use super::GroundError;
 use crate::mesh::volume::plan_area;
-use crate::model::Terrain;
+use crate::model::{Note, Terrain};
+use crate::terrain;
 use glam::{DVec2, DVec3};
 
 /// No neighbour.
@@ -45,6 +47,16 @@ impl Patch {
         let neighbours = neighbours(vertices.len(), &triangles);
         let bins = Bins::new(&vertices, &triangles);
         Self { vertices, vertex_of, triangles, triangle_of: chosen, neighbours, bins }
+    }
+
+    /// Looks at how the triangles lie together; `ground` is what the patch was taken from, `label` its name in messages.
+    ///
+    /// # Errors
+    /// [`GroundError::Terrain`] with all that is wrong.
+    pub(crate) fn inspect(&self, ground: &Terrain, label: &str) -> Result<Vec<Note>, GroundError> {
+        let near = Terrain { frame: ground.frame, vertices: self.vertices.clone(), triangles: self.triangles.clone() };
+        let findings = terrain::inspect(label, &near);
+        if findings.defects.list.is_empty() { Ok(findings.notes) } else { Err(GroundError::Terrain(findings.defects)) }
     }
 
     /// Ends of side `j` of triangle `t`, lower vertex first.

@@ -197,7 +197,7 @@ impl Moves {
 pub(super) fn reference(line: &Line, design: &Design, ends: &Ends) -> f64 {
     let falling = design.sheet == SheetKind::Falling;
     let (low, high) = line.elevation_range();
-    let inside = design.side_of_rings == Side::Inside && line.chains.iter().all(|c| c.closed());
+    let inside = design.only_inside(line);
     match design.extent {
         _ if inside && falling => high,
         _ if inside => low,
