@@ -1,11 +1,12 @@
 //! The mesh of a surface with what is known of its triangles and edges.
 
 use super::flats::Flats;
-use super::{CHORD_SHARE, Ends, Mark, PlatformStation, Volumes, feet};
+use super::make::CHORD_SHARE;
+use super::{Mark, PlatformStation, Volumes, feet};
 use crate::kernel::sum::Sum;
 use crate::mesh::check::owners;
 use crate::mesh::volume;
-use crate::model::{Chain, Design, Extent, Line, Part, Sheet as SheetKind, Side, Tin};
+use crate::model::{Chain, Design, Line, Part, Sheet as SheetKind, Side, Tin};
 use crate::slope::emit::{self, Slopes, Trace};
 use crate::slope::network::Network;
 use glam::DVec3;
@@ -190,19 +191,5 @@ impl Moves {
         let off = self.line + if curved { self.cone } else { 0.0 };
         // The ruling a slope ends in stays where it is.
         if across > RULING * self.slope { length * off / across } else { 0.0 }
-    }
-}
-
-/// The plane that volumes are measured from, where none is given: the elevation the slopes end at, inside rings that of the rim.
-pub(super) fn reference(line: &Line, design: &Design, ends: &Ends) -> f64 {
-    let falling = design.sheet == SheetKind::Falling;
-    let (low, high) = line.elevation_range();
-    let inside = design.only_inside(line);
-    match design.extent {
-        _ if inside && falling => high,
-        _ if inside => low,
-        Extent::Elevation(z) => z,
-        _ if falling => ends.lowest,
-        _ => -ends.lowest,
     }
 }
