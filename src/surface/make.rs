@@ -1,7 +1,8 @@
 //! The steps from a line and a design to the mesh with its figures, in their order.
 
-use super::body::{Body, Moves};
+use super::body::Body;
 use super::ends::{END_TIE, Ends};
+use super::error_bound::Moves;
 use super::solve::{self, Ask, Solved};
 use super::{Areas, Surface, SurfaceError, Watch, buried, certificate, curves, feet, flats, room};
 use crate::mesh::check::HalfEdges;

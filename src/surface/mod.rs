@@ -6,6 +6,7 @@ mod certificate;
 pub mod curves;
 mod ends;
 mod error;
+pub(crate) mod error_bound;
 mod feet;
 mod flats;
 mod formation;
@@ -15,7 +16,6 @@ mod solve;
 mod stations;
 mod touching;
 
-pub(crate) use body::Moves;
 pub use buried::Buried;
 pub use certificate::Certificate;
 pub(crate) use certificate::{CONE_BOUND, Deviations, MEASURABLE_HEIGHT, STRIP_BOUND, flaw};
