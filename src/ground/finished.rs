@@ -1,14 +1,14 @@
 //! The ground outside the works: given triangles as they are, and what is left of those that the works cut.
 
 use super::cell::{Corner, Label, cell, class};
+use super::clip::{clip, sense, split_sides};
 use super::nodes::Nodes;
 use super::patch::Patch;
 use super::shape::Shape;
 use super::trimmed::{Passing, Path, runs};
-use super::works::{Border, Works, clip, split_sides};
+use super::works::{Border, Works};
 use crate::mesh::polygon;
 use crate::mesh::region::RegionError;
-use crate::model::Part;
 use rustc_hash::FxHashMap;
 
 /// What the works leave of the patch of ground.
@@ -99,13 +99,9 @@ fn remainder(
     let (mut corners, mut kept) = (Vec::new(), Vec::new());
     for &a in &cut.over {
         cell(shape, patch, a, b, &mut corners);
-        let part = shape.parts[a as usize];
-        match part {
-            Part::FillSlope | Part::CutSlope if !whole => {
-                let sense = if part == Part::CutSlope { -1.0 } else { 1.0 };
-                clip(shape, patch, (a, b), &corners, sense, &mut kept);
-            }
-            _ => split_sides(shape, patch, (a, b), &corners, &mut kept),
+        match sense(shape.parts[a as usize], whole) {
+            Some(sense) => clip(shape, patch, (a, b), &corners, sense, &mut kept),
+            None => split_sides(shape, patch, (a, b), &corners, &mut kept),
         }
         for (n, corner) in kept.iter().enumerate() {
             let Some(j) = corner.side.ground else { continue };

@@ -3,6 +3,7 @@
 mod build;
 mod cell;
 mod certificate;
+mod clip;
 pub mod depths;
 pub mod end_areas;
 mod error;

@@ -1,10 +1,11 @@
 //! The design cut off at the ground: whole triangles stay, the others keep their part in the works.
 
 use super::cell::{Corner, Label, Side, cell};
+use super::clip::{clip, sense, split_sides};
 use super::nodes::Nodes;
 use super::patch::{NONE, Patch};
 use super::shape::Shape;
-use super::works::{Border, Works, clip, split_sides};
+use super::works::{Border, Works};
 use crate::mesh::polygon;
 use crate::mesh::region::RegionError;
 use crate::model::Part;
@@ -99,18 +100,9 @@ pub(crate) struct Cutting {
 }
 
 impl Cutting {
-    /// Which side of the ground counts of a part: above (1), below (−1), or both.
-    fn sense(self, part: Part) -> Option<f64> {
-        match part {
-            Part::CutSlope if !self.whole => Some(-1.0),
-            Part::FillSlope if !self.whole => Some(1.0),
-            _ => None,
-        }
-    }
-
     /// Whether the ground cuts off a part.
     fn concerns(self, part: Part) -> bool {
-        self.at_rim || self.sense(part).is_some()
+        self.at_rim || sense(part, self.whole).is_some()
     }
 
     /// Whether any of the design goes on beyond the edge of the ground although it is not to be cut off there.
@@ -145,7 +137,7 @@ impl Trimmed {
             let edges = match cells.get(&a) {
                 Some(over) => {
                     let rims = rims.get(&a).map_or(&[][..], |list| list);
-                    Some(trimmed.piece(shape, patch, works, nodes, cutting.sense(part), a, over, rims))
+                    Some(trimmed.piece(shape, patch, works, nodes, sense(part, cutting.whole), a, over, rims))
                 }
                 None => trimmed.with_points(shape, works, nodes, a),
             };
