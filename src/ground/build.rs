@@ -5,7 +5,7 @@ mod depth;
 use super::feeder::Feeder;
 use super::figures::{self, Ground};
 use super::finished::Left;
-use super::nodes::Nodes;
+use super::nodes::{Meeting, Nodes};
 use super::patch::Patch;
 use super::patchwork::Patchwork;
 use super::reach::{Bounds, Reach};
@@ -155,13 +155,14 @@ impl<'a> Site<'a> {
         let assemble = |works: &Works, nodes: &Nodes| {
             let cut = |what| move |cause| GroundError::Cut { what, cause };
             let cutting = Cutting { whole, at_rim: false };
-            let trimmed = Trimmed::new(&shape, &patch, works, nodes, cutting).map_err(cut("the design"))?;
+            let meeting = Meeting { shape: &shape, patch: &patch, works, nodes };
+            let trimmed = Trimmed::new(meeting, cutting).map_err(cut("the design"))?;
             let (mut left, mut within) = (None, None);
             if options.finished {
-                left = Some(Left::new(&shape, &patch, works, nodes, whole).map_err(cut("the ground"))?);
+                left = Some(Left::new(meeting, whole).map_err(cut("the ground"))?);
                 if cutting.leaves_over(&shape, works) {
                     let cutting = Cutting { at_rim: true, ..cutting };
-                    within = Some(Trimmed::new(&shape, &patch, works, nodes, cutting).map_err(cut("the design"))?);
+                    within = Some(Trimmed::new(meeting, cutting).map_err(cut("the design"))?);
                 }
             }
             go_on("finished ground")?;

@@ -2,9 +2,8 @@
 
 use super::cell::{Corner, Label, cell, class};
 use super::clip::{clip, sense, split_sides};
-use super::nodes::Nodes;
+use super::nodes::{Meeting, Nodes};
 use super::patch::Patch;
-use super::shape::Shape;
 use super::trimmed::{Passing, Path, runs};
 use super::works::{Border, Works};
 use crate::mesh::polygon;
@@ -33,7 +32,8 @@ impl Left {
     ///
     /// # Errors
     /// [`RegionError`] if a remainder cannot be triangulated.
-    pub(crate) fn new(shape: &Shape, patch: &Patch, works: &Works, nodes: &Nodes, whole: bool) -> Result<Self, RegionError> {
+    pub(crate) fn new(meeting: Meeting, whole: bool) -> Result<Self, RegionError> {
+        let Meeting { patch, works, nodes, .. } = meeting;
         let cuts = cuts(patch, works);
         let mut covered = vec![false; patch.triangles.len()];
         works.cells.iter().for_each(|&(_, b)| covered[b as usize] = true);
@@ -42,7 +42,7 @@ impl Left {
             match cuts.get(&b) {
                 Some(cut) => {
                     let mut passing = Passing::new(nodes);
-                    let edges = remainder(shape, patch, works, nodes, &mut passing, b, cut, whole);
+                    let edges = remainder(meeting, &mut passing, b, cut, whole);
                     left.pieces.extend(polygon::fill(&nodes.places, &edges, |v| passing.is_vertex(v))?);
                 }
                 None if !covered[b as usize] => left.kept.push(b),
@@ -77,17 +77,8 @@ fn cuts(patch: &Patch, works: &Works) -> FxHashMap<u32, Cut> {
 }
 
 /// Directed edges around what is left of ground triangle `b`.
-#[allow(clippy::too_many_arguments)]
-fn remainder(
-    shape: &Shape,
-    patch: &Patch,
-    works: &Works,
-    nodes: &Nodes,
-    passing: &mut Passing,
-    b: u32,
-    cut: &Cut,
-    whole: bool,
-) -> Vec<[u32; 2]> {
+fn remainder(meeting: Meeting, passing: &mut Passing, b: u32, cut: &Cut, whole: bool) -> Vec<[u32; 2]> {
+    let Meeting { shape, patch, works, nodes } = meeting;
     let t = patch.triangles[b as usize];
     let paths = [0, 1, 2_usize].map(|j| {
         let labels = works.on_ground.get(&patch.edge(b, j as u8)).map_or(&[][..], |list| list);
