@@ -16,6 +16,7 @@ use super::uncovered::{Bare, Uncovered};
 use super::works::{Flood, Works};
 use super::{GroundError, open_ends};
 use crate::kernel::frame::Frame;
+use crate::kernel::plan_box::PlanBox;
 use crate::model::{Design, Extent, Line, Part, Sheet, Terrain};
 use crate::slope::levels;
 use crate::surface::{self, Surface, SurfaceError, Watch};
@@ -58,13 +59,9 @@ impl<'a> Site<'a> {
     /// Puts the ground into a frame that holds line and ground alike; `label` names the ground in messages.
     pub fn new(line: &'a Line, terrain: Terrain, label: &'a str) -> Self {
         let world = |p: DVec2| terrain.frame.to_world(p.extend(0.0)).truncate();
-        let (lo, hi) = terrain.plan_box();
-        let (mut lo, mut hi) = (world(lo), world(hi));
-        for v in line.chains.iter().flat_map(|chain| &chain.vertices) {
-            lo = lo.min(v.truncate());
-            hi = hi.max(v.truncate());
-        }
-        let terrain = terrain.in_frame(Frame::around(lo, hi));
+        let PlanBox { lo, hi } = terrain.plan_box();
+        let all = PlanBox { lo: world(lo), hi: world(hi) }.join(line.plan_box());
+        let terrain = terrain.in_frame(Frame::around(all.lo, all.hi));
         let bounds = Bounds::new(&terrain);
         Self { line, terrain, label, bounds, reaches: Vec::new(), ends: Vec::new(), first_patch: OnceLock::new() }
     }

@@ -1,6 +1,7 @@
 //! The part of the ground that the works can touch, with neighbours.
 
 use super::GroundError;
+use crate::kernel::plan_box::PlanBox;
 use crate::mesh::volume::plan_area;
 use crate::model::{Note, Terrain};
 use crate::terrain;
@@ -147,20 +148,18 @@ const MOST_BINS: usize = 256;
 
 impl Bins {
     fn new(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Self {
-        let (lo, hi) = vertices
-            .iter()
-            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(lo, hi), v| (lo.min(v.truncate()), hi.max(v.truncate())));
+        let bounds = PlanBox::of(vertices.iter().map(|v| v.truncate()));
         if triangles.is_empty() {
             return Self { origin: DVec2::ZERO, cell: 1.0, size: [0, 0], start: vec![0, 0], list: Vec::new() };
         }
-        let extent = hi - lo;
+        let extent = bounds.size();
         let count = triangles.len() as f64;
         let area: f64 = triangles.iter().map(|t| plan_area(t.map(|v| vertices[v as usize]))).sum();
         let most = (BINS_PER_TRIANGLE * count).max(1.0);
         let roomy = (TRIANGLES_PER_BIN * area / count).sqrt();
         let cell = roomy.max((extent.x * extent.y / most).sqrt()).max(extent.max_element() / most).max(f64::MIN_POSITIVE);
         let size = [(extent.x / cell) as usize + 1, (extent.y / cell) as usize + 1];
-        let mut bins = Self { origin: lo, cell, size, start: Vec::new(), list: Vec::new() };
+        let mut bins = Self { origin: bounds.lo, cell, size, start: Vec::new(), list: Vec::new() };
         // The last list takes the large ones.
         let large = size[0] * size[1];
         let mut start = vec![0_u32; large + 2];

@@ -1,6 +1,7 @@
 //! A hash of a mesh as a surface: the same for the same triangles, in whatever order and numbering.
 
 use crate::kernel::hash::hex;
+use crate::kernel::range::range;
 use crate::model::Tin;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -45,10 +46,7 @@ fn places(tin: &Tin) -> Vec<(DVec3, u32)> {
     let used: Vec<u32> = (0..tin.vertices.len() as u32).filter(|&v| used[v as usize]).collect();
     // Adding nought makes 0 of −0.
     let place = |v: u32| tin.world(v as usize) + DVec3::ZERO;
-    let (lo, hi) = used.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), &v| {
-        let x = place(v).x;
-        (lo.min(x), hi.max(x))
-    });
+    let (lo, hi) = range(used.iter().map(|&v| place(v).x));
     // Ascends with x, whatever the rounding. Where all have the same x it is not a number, and all go into the first strip.
     let strips = used.len() / BUCKET + 1;
     let strip = |p: DVec3| ((strips as f64 * ((p.x - lo) / (hi - lo))) as usize).min(strips - 1);
