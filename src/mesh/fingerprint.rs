@@ -1,10 +1,10 @@
 //! A hash of a mesh as a surface: the same for the same triangles, in whatever order and numbering.
 
+use crate::kernel::buckets::Buckets;
 use crate::kernel::hash::hex;
 use crate::kernel::range::range;
 use crate::model::Tin;
 use glam::DVec3;
-use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 use std::cmp::Ordering;
 
@@ -89,27 +89,9 @@ fn sorted<T: Copy + Default + Send>(
     bucket: impl Fn(&T) -> usize,
     compare: impl Fn(&T, &T) -> Ordering + Sync,
 ) -> Vec<T> {
-    let mut begins = vec![0; buckets + 1];
-    items.clone().for_each(|item| begins[bucket(&item) + 1] += 1);
-    for b in 0..buckets {
-        begins[b + 1] += begins[b];
-    }
-    let mut next = begins.clone();
-    let mut sorted = vec![T::default(); begins[buckets]];
-    for item in items {
-        let place = &mut next[bucket(&item)];
-        sorted[*place] = item;
-        *place += 1;
-    }
-    let mut rest = &mut sorted[..];
-    let mut slices = Vec::with_capacity(buckets);
-    for ends in begins.windows(2) {
-        let (slice, after) = rest.split_at_mut(ends[1] - ends[0]);
-        slices.push(slice);
-        rest = after;
-    }
-    slices.into_par_iter().for_each(|slice| slice.sort_unstable_by(&compare));
-    sorted
+    let mut sorted = Buckets::new(buckets, items.map(|item| (bucket(&item) as u32, item)));
+    sorted.sort_each(compare);
+    sorted.into_things()
 }
 
 fn compare(a: DVec3, b: DVec3) -> Ordering {

@@ -3,6 +3,7 @@
 use super::canonical;
 use super::noding::{Segments, weld};
 use super::simplify::{self, Chord};
+use crate::kernel::buckets::Buckets;
 use crate::kernel::frame::Frame;
 use crate::kernel::plan_box::PlanBox;
 use crate::model::{Design, Extent, Joggle, Line, Role, Sheet, Side};
@@ -190,25 +191,10 @@ impl Network {
         self.origin(twin(h))
     }
 
-    /// Half-edges leaving each node, as ranges of one list: `list[start[n]..start[n + 1]]`.
-    pub fn outgoing(&self) -> (Vec<u32>, Vec<HalfEdge>) {
-        let mut start = vec![0_u32; self.nodes.len() + 1];
-        for edge in &self.edges {
-            start[edge.a as usize + 1] += 1;
-            start[edge.b as usize + 1] += 1;
-        }
-        for n in 0..self.nodes.len() {
-            start[n + 1] += start[n];
-        }
-        let mut next = start.clone();
-        let mut list = vec![0; 2 * self.edges.len()];
-        for (e, edge) in self.edges.iter().enumerate() {
-            for (node, h) in [(edge.a, 2 * e), (edge.b, 2 * e + 1)] {
-                list[next[node as usize] as usize] = h as u32;
-                next[node as usize] += 1;
-            }
-        }
-        (start, list)
+    /// Half-edges leaving each node.
+    pub fn outgoing(&self) -> Buckets<HalfEdge> {
+        let both = |(e, edge): (u32, &Edge)| [(edge.a, 2 * e), (edge.b, 2 * e + 1)];
+        Buckets::new(self.nodes.len(), (0..).zip(&self.edges).flat_map(both))
     }
 
     /// Cuts the pieces into runs between fixed nodes, simplifies each and drops the nodes no edge uses.
