@@ -1,11 +1,11 @@
 //! From the works to what is written: meshes, line work, figures and the certificate.
 
-use super::build::met as meets_ground;
 use super::cell::{Label, TOUCH, class};
 use super::certificate::certificate;
 use super::feeder::Fed;
 use super::finished::Left;
 use super::nodes::{Nodes, WELD};
+use super::open_ends;
 use super::patch::{NONE, Patch};
 use super::patchwork::Patchwork;
 use super::shape::Shape;
@@ -18,7 +18,8 @@ use crate::mesh::check::{self, HalfEdges};
 use crate::mesh::{polygon, volume};
 use crate::model::{CurveKind, Design, Line, LineFeature, Note, Part, Sheet, Terrain, Tin};
 use crate::surface::curves::{self, chained};
-use crate::surface::{Areas, Certificate, Mark, Moves, Surface, flaw};
+use crate::surface::error_bound::{Moves, layers};
+use crate::surface::{Areas, Certificate, Mark, Surface, flaw};
 use glam::DVec3;
 use rustc_hash::FxHashSet;
 
@@ -124,7 +125,7 @@ pub(crate) fn ground(found: &Found) -> Result<(Ground, Option<Patchwork>), Groun
         levels: levels(found, &lines),
         lines,
         daylight: daylight(found),
-        complete: found.covered && meets_ground(found.works, found.designs),
+        complete: found.covered && open_ends::met(found.works, found.designs),
         tallied: found.fed.tallied.clone(),
         sections: found.fed.sections.clone(),
         stations: found.stations.clone(),
@@ -189,9 +190,6 @@ fn error_bound(found: &Found, number: &Numbering, design: &Tin, edges: &HalfEdge
         let foot = found.shape.foot_of[found.trimmed.from[t] as usize];
         foot != NONE && found.shape.feet[foot as usize].on_cone
     };
-    let area = |t: usize| volume::plan_area(design.corners(t));
-    let cones = (0..design.triangles.len()).filter(|&t| on_cone(t)).map(area).collect::<Sum>().value();
-    let all = (0..design.triangles.len()).map(area).collect::<Sum>().value();
     let undirected = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
     let met = met(found).into_iter().filter_map(|([a, b], _)| Some(undirected([number.get(a)?, number.get(b)?])));
     let met: FxHashSet<[u32; 2]> = met.collect();
@@ -206,7 +204,7 @@ fn error_bound(found: &Found, number: &Numbering, design: &Tin, edges: &HalfEdge
     });
     let tallied = &found.fed.tallied;
     let deepest = [&tallied.deepest_cut, &tallied.deepest_fill].into_iter().flatten().map(|d| d.depth).fold(0.0, f64::max);
-    line * all + cone * cones + strips.collect::<Sum>().value() * (deepest + line + cone)
+    layers(design, on_cone, line, cone) + strips.collect::<Sum>().value() * (deepest + line + cone)
 }
 
 /// The pieces of boundary where design and ground meet, as numbers of nodes.

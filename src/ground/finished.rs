@@ -1,14 +1,13 @@
 //! The ground outside the works: given triangles as they are, and what is left of those that the works cut.
 
 use super::cell::{Corner, Label, cell, class};
-use super::nodes::Nodes;
+use super::clip::{clip, sense, split_sides};
+use super::nodes::{Meeting, Nodes};
 use super::patch::Patch;
-use super::shape::Shape;
 use super::trimmed::{Passing, Path, runs};
-use super::works::{Border, Works, clip, split_sides};
+use super::works::{Border, Works};
 use crate::mesh::polygon;
 use crate::mesh::region::RegionError;
-use crate::model::Part;
 use rustc_hash::FxHashMap;
 
 /// What the works leave of the patch of ground.
@@ -33,7 +32,8 @@ impl Left {
     ///
     /// # Errors
     /// [`RegionError`] if a remainder cannot be triangulated.
-    pub(crate) fn new(shape: &Shape, patch: &Patch, works: &Works, nodes: &Nodes, whole: bool) -> Result<Self, RegionError> {
+    pub(crate) fn new(meeting: Meeting, whole: bool) -> Result<Self, RegionError> {
+        let Meeting { patch, works, nodes, .. } = meeting;
         let cuts = cuts(patch, works);
         let mut covered = vec![false; patch.triangles.len()];
         works.cells.iter().for_each(|&(_, b)| covered[b as usize] = true);
@@ -42,7 +42,7 @@ impl Left {
             match cuts.get(&b) {
                 Some(cut) => {
                     let mut passing = Passing::new(nodes);
-                    let edges = remainder(shape, patch, works, nodes, &mut passing, b, cut, whole);
+                    let edges = remainder(meeting, &mut passing, b, cut, whole);
                     left.pieces.extend(polygon::fill(&nodes.places, &edges, |v| passing.is_vertex(v))?);
                 }
                 None if !covered[b as usize] => left.kept.push(b),
@@ -77,17 +77,8 @@ fn cuts(patch: &Patch, works: &Works) -> FxHashMap<u32, Cut> {
 }
 
 /// Directed edges around what is left of ground triangle `b`.
-#[allow(clippy::too_many_arguments)]
-fn remainder(
-    shape: &Shape,
-    patch: &Patch,
-    works: &Works,
-    nodes: &Nodes,
-    passing: &mut Passing,
-    b: u32,
-    cut: &Cut,
-    whole: bool,
-) -> Vec<[u32; 2]> {
+fn remainder(meeting: Meeting, passing: &mut Passing, b: u32, cut: &Cut, whole: bool) -> Vec<[u32; 2]> {
+    let Meeting { shape, patch, works, nodes } = meeting;
     let t = patch.triangles[b as usize];
     let paths = [0, 1, 2_usize].map(|j| {
         let labels = works.on_ground.get(&patch.edge(b, j as u8)).map_or(&[][..], |list| list);
@@ -99,13 +90,9 @@ fn remainder(
     let (mut corners, mut kept) = (Vec::new(), Vec::new());
     for &a in &cut.over {
         cell(shape, patch, a, b, &mut corners);
-        let part = shape.parts[a as usize];
-        match part {
-            Part::FillSlope | Part::CutSlope if !whole => {
-                let sense = if part == Part::CutSlope { -1.0 } else { 1.0 };
-                clip(shape, patch, (a, b), &corners, sense, &mut kept);
-            }
-            _ => split_sides(shape, patch, (a, b), &corners, &mut kept),
+        match sense(shape.parts[a as usize], whole) {
+            Some(sense) => clip(shape, patch, (a, b), &corners, sense, &mut kept),
+            None => split_sides(shape, patch, (a, b), &corners, &mut kept),
         }
         for (n, corner) in kept.iter().enumerate() {
             let Some(j) = corner.side.ground else { continue };

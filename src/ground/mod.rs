@@ -3,6 +3,7 @@
 mod build;
 mod cell;
 mod certificate;
+mod clip;
 pub mod depths;
 pub mod end_areas;
 mod error;
@@ -11,6 +12,7 @@ mod figures;
 mod finished;
 pub mod haul;
 mod nodes;
+mod open_ends;
 mod patch;
 mod patchwork;
 pub mod piece;
@@ -22,6 +24,7 @@ pub mod stations;
 pub mod tally;
 mod thinned;
 mod trimmed;
+mod uncovered;
 mod works;
 
 #[cfg(test)]

@@ -24,6 +24,15 @@ pub(crate) struct Nodes {
     ground: u32,
 }
 
+/// Design and ground, and where they meet: all that the one is cut with at the other.
+#[derive(Clone, Copy)]
+pub(crate) struct Meeting<'a> {
+    pub(crate) shape: &'a Shape,
+    pub(crate) patch: &'a Patch,
+    pub(crate) works: &'a Works,
+    pub(crate) nodes: &'a Nodes,
+}
+
 impl Nodes {
     /// Numbers the points of the works.
     pub(crate) fn new(shape: &Shape, patch: &Patch, works: &Works) -> Self {

@@ -1,11 +1,14 @@
 //! The part of the ground that the works can touch, with neighbours.
 
+use super::GroundError;
+use crate::kernel::buckets::Buckets;
+use crate::kernel::plan_box::PlanBox;
+pub(super) use crate::mesh::neighbours::NONE;
+use crate::mesh::neighbours::neighbours;
 use crate::mesh::volume::plan_area;
-use crate::model::Terrain;
+use crate::model::{Note, Terrain};
+use crate::terrain;
 use glam::{DVec2, DVec3};
-
-/// No neighbour.
-pub(crate) const NONE: u32 = u32::MAX;
 
 /// Triangles with their neighbours: side `i` runs from corner `i` to the next.
 pub(crate) struct Patch {
@@ -47,6 +50,16 @@ impl Patch {
         Self { vertices, vertex_of, triangles, triangle_of: chosen, neighbours, bins }
     }
 
+    /// Looks at how the triangles lie together; `ground` is what the patch was taken from, `label` its name in messages.
+    ///
+    /// # Errors
+    /// [`GroundError::Terrain`] with all that is wrong.
+    pub(crate) fn inspect(&self, ground: &Terrain, label: &str) -> Result<Vec<Note>, GroundError> {
+        let near = Terrain { frame: ground.frame, vertices: self.vertices.clone(), triangles: self.triangles.clone() };
+        let findings = terrain::inspect(label, &near);
+        if findings.defects.list.is_empty() { Ok(findings.notes) } else { Err(GroundError::Terrain(findings.defects)) }
+    }
+
     /// Ends of side `j` of triangle `t`, lower vertex first.
     pub(crate) fn edge(&self, t: u32, j: u8) -> [u32; 2] {
         let t = self.triangles[t as usize];
@@ -57,8 +70,7 @@ impl Patch {
     /// Calls `visit` with every triangle whose box comes near the segment from `a` to `b`; some come more than once.
     pub(crate) fn near(&self, a: DVec2, b: DVec2, mut visit: impl FnMut(u32)) {
         self.bins.along(a, b, |bin| {
-            let range = self.bins.start[bin] as usize..self.bins.start[bin + 1] as usize;
-            self.bins.list[range].iter().for_each(|&t| visit(t));
+            self.bins.triangles.of(bin).iter().for_each(|&t| visit(t));
         });
     }
 
@@ -69,56 +81,13 @@ impl Patch {
     }
 }
 
-/// Neighbours of triangles across their sides; [`NONE`] where there is none. Sides used more than twice pair up in order.
-pub(crate) fn neighbours(vertex_count: usize, triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
-    // Sides by their lower end: a counting sort, then a short list each.
-    let mut start = vec![0_u32; vertex_count + 1];
-    for t in triangles {
-        for i in 0..3 {
-            start[t[i].min(t[(i + 1) % 3]) as usize + 1] += 1;
-        }
-    }
-    for v in 0..vertex_count {
-        start[v + 1] += start[v];
-    }
-    let mut next = start.clone();
-    let mut sides = vec![(0_u32, 0_u32); 3 * triangles.len()];
-    for (n, t) in triangles.iter().enumerate() {
-        for i in 0..3 {
-            let (a, b) = (t[i], t[(i + 1) % 3]);
-            let slot = &mut next[a.min(b) as usize];
-            sides[*slot as usize] = (a.max(b), 3 * n as u32 + i as u32);
-            *slot += 1;
-        }
-    }
-    let mut found = vec![[NONE; 3]; triangles.len()];
-    for v in 0..vertex_count {
-        let list = &mut sides[start[v] as usize..start[v + 1] as usize];
-        // In order of the other end: a vertex may have any number of sides, as the tip of a fan has.
-        list.sort_unstable();
-        for group in list.chunk_by(|a, b| a.0 == b.0) {
-            for (n, &(_, side)) in group.iter().enumerate() {
-                for &(_, other) in &group[n + 1..] {
-                    let (t, u) = ((side / 3) as usize, (other / 3) as usize);
-                    let (i, j) = ((side % 3) as usize, (other % 3) as usize);
-                    if found[t][i] == NONE && found[u][j] == NONE && triangles[t][i] != triangles[u][j] {
-                        found[t][i] = u as u32;
-                        found[u][j] = t as u32;
-                    }
-                }
-            }
-        }
-    }
-    found
-}
-
 /// Triangles by the bins their boxes overlap.
 struct Bins {
     origin: DVec2,
     cell: f64,
     size: [usize; 2],
-    start: Vec<u32>,
-    list: Vec<u32>,
+    /// Row by row, and after the last one the large triangles.
+    triangles: Buckets<u32>,
 }
 
 /// Triangles of mean area that a bin has room for.
@@ -135,50 +104,31 @@ const MOST_BINS: usize = 256;
 
 impl Bins {
     fn new(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Self {
-        let (lo, hi) = vertices
-            .iter()
-            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(lo, hi), v| (lo.min(v.truncate()), hi.max(v.truncate())));
+        let bounds = PlanBox::of(vertices.iter().map(|v| v.truncate()));
         if triangles.is_empty() {
-            return Self { origin: DVec2::ZERO, cell: 1.0, size: [0, 0], start: vec![0, 0], list: Vec::new() };
+            return Self { origin: DVec2::ZERO, cell: 1.0, size: [0, 0], triangles: Buckets::new(0, std::iter::empty()) };
         }
-        let extent = hi - lo;
+        let extent = bounds.size();
         let count = triangles.len() as f64;
         let area: f64 = triangles.iter().map(|t| plan_area(t.map(|v| vertices[v as usize]))).sum();
         let most = (BINS_PER_TRIANGLE * count).max(1.0);
         let roomy = (TRIANGLES_PER_BIN * area / count).sqrt();
         let cell = roomy.max((extent.x * extent.y / most).sqrt()).max(extent.max_element() / most).max(f64::MIN_POSITIVE);
         let size = [(extent.x / cell) as usize + 1, (extent.y / cell) as usize + 1];
-        let mut bins = Self { origin: lo, cell, size, start: Vec::new(), list: Vec::new() };
-        // The last list takes the large ones.
-        let large = size[0] * size[1];
-        let mut start = vec![0_u32; large + 2];
-        let each = |bins: &Self, t: &[u32; 3], visit: &mut dyn FnMut(usize)| {
+        let mut bins = Self { origin: bounds.lo, cell, size, triangles: Buckets::new(0, std::iter::empty()) };
+        // First and last column and row of each triangle.
+        let reach = |t: &[u32; 3]| {
             let p = t.map(|v| vertices[v as usize].truncate());
             let (lo, hi) = (bins.place(p[0].min(p[1]).min(p[2])), bins.place(p[0].max(p[1]).max(p[2])));
-            if (hi[0] - lo[0] + 1) * (hi[1] - lo[1] + 1) > MOST_BINS {
-                visit(large);
-                return;
-            }
-            for y in lo[1]..=hi[1] {
-                (lo[0]..=hi[0]).for_each(|x| visit(y * bins.size[0] + x));
-            }
+            let large = (hi[0] - lo[0] + 1) * (hi[1] - lo[1] + 1) > MOST_BINS;
+            if large { [0, 0, size[1], size[1]] } else { [lo[0], hi[0], lo[1], hi[1]] }.map(|i| i as u32)
         };
-        for t in triangles {
-            each(&bins, t, &mut |bin| start[bin + 1] += 1);
-        }
-        for i in 0..=large {
-            start[i + 1] += start[i];
-        }
-        let mut next = start.clone();
-        let mut list = vec![0_u32; start[large + 1] as usize];
-        for (n, t) in triangles.iter().enumerate() {
-            each(&bins, t, &mut |bin| {
-                list[next[bin] as usize] = n as u32;
-                next[bin] += 1;
-            });
-        }
-        bins.start = start;
-        bins.list = list;
+        let reaches: Vec<[u32; 4]> = triangles.iter().map(reach).collect();
+        let columns = size[0] as u32;
+        let bins_of =
+            |[left, right, low, high]: [u32; 4]| (low..high + 1).flat_map(move |y| y * columns + left..y * columns + right + 1);
+        let numbered = (0..).zip(&reaches).flat_map(|(n, &reach)| bins_of(reach).map(move |bin| (bin, n)));
+        bins.triangles = Buckets::new(size[0] * size[1] + 1, numbered);
         bins
     }
 
@@ -190,11 +140,11 @@ impl Bins {
     }
 
     /// Bins that the segment comes into, one row after the other, and the list of the large triangles.
-    fn along(&self, a: DVec2, b: DVec2, mut visit: impl FnMut(usize)) {
-        if self.list.is_empty() {
+    fn along(&self, a: DVec2, b: DVec2, mut visit: impl FnMut(u32)) {
+        if self.size == [0, 0] {
             return;
         }
-        visit(self.size[0] * self.size[1]);
+        visit((self.size[0] * self.size[1]) as u32);
         let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
         let far = self.origin + self.cell * DVec2::new(self.size[0] as f64, self.size[1] as f64);
         if b.y < self.origin.y || a.y > far.y || a.x.max(b.x) < self.origin.x || a.x.min(b.x) > far.x {
@@ -208,26 +158,7 @@ impl Bins {
             let slack = WIDER * self.cell;
             let from = self.place(DVec2::new(p - slack, bottom))[0];
             let to = self.place(DVec2::new(q + slack, bottom))[0];
-            (from..=to).for_each(|x| visit(y * self.size[0] + x));
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A fan of a hundred thousand triangles about vertex 0: each has the ones before and after it beside it. Comparing all sides
-    /// of the tip with each other would take minutes.
-    #[test]
-    fn a_fan_has_its_neighbours() {
-        let count = 100_000;
-        let fan: Vec<[u32; 3]> = (0..count).map(|i| [0, i + 1, i + 2]).collect();
-        let found = neighbours(count as usize + 2, &fan);
-        for (i, sides) in (0..count).zip(&found) {
-            let before = if i == 0 { NONE } else { i - 1 };
-            let after = if i + 1 == count { NONE } else { i + 1 };
-            assert_eq!(*sides, [before, NONE, after]);
+            (from..=to).for_each(|x| visit((y * self.size[0] + x) as u32));
         }
     }
 }

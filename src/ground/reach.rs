@@ -69,13 +69,14 @@ pub(crate) struct Reach {
 impl Bounds {
     /// The bounds of a ground.
     pub(crate) fn new(terrain: &Terrain) -> Self {
-        let (lo, hi) = terrain.plan_box();
-        let extent = (hi - lo).max(DVec2::splat(f64::MIN_POSITIVE));
+        let bounds = terrain.plan_box();
+        let extent = bounds.size().max(DVec2::splat(f64::MIN_POSITIVE));
         let cells = (terrain.triangles.len() as f64 / TRIANGLES_PER_CELL).clamp(1.0, MOST_CELLS * MOST_CELLS);
         let across = |a: f64, b: f64| (cells * a / b).sqrt().ceil().clamp(1.0, MOST_CELLS);
         let size = [across(extent.x, extent.y) as usize, across(extent.y, extent.x) as usize];
         let cell = extent / DVec2::new(size[0] as f64, size[1] as f64);
-        let mut bounds = Self { origin: lo, cell, size, range: Vec::new(), places: Vec::new(), boxes: Vec::new(), area: 0.0 };
+        let mut bounds =
+            Self { origin: bounds.lo, cell, size, range: Vec::new(), places: Vec::new(), boxes: Vec::new(), area: 0.0 };
         let place = |v: &DVec3| [bounds.index(v.x, 0) as u16, bounds.index(v.y, 1) as u16];
         bounds.places = terrain.vertices.par_iter().map(place).collect();
         let length = terrain.triangles.len().div_ceil(PARTS).next_multiple_of(BLOCK);

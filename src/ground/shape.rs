@@ -1,7 +1,8 @@
 //! The design before the ground cuts it: platform, falling and rising slopes in one numbering.
 
-use super::patch::{NONE, neighbours};
+use super::patch::NONE;
 use crate::kernel::frame::Frame;
+use crate::mesh::neighbours::neighbours;
 use crate::model::Part;
 use crate::surface::{Foot, Mark, Surface};
 use glam::{DVec2, DVec3};

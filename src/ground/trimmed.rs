@@ -1,10 +1,11 @@
 //! The design cut off at the ground: whole triangles stay, the others keep their part in the works.
 
 use super::cell::{Corner, Label, Side, cell};
-use super::nodes::Nodes;
-use super::patch::{NONE, Patch};
+use super::clip::{clip, sense, split_sides};
+use super::nodes::{Meeting, Nodes};
+use super::patch::NONE;
 use super::shape::Shape;
-use super::works::{Border, Works, clip, split_sides};
+use super::works::{Border, Works};
 use crate::mesh::polygon;
 use crate::mesh::region::RegionError;
 use crate::model::Part;
@@ -99,18 +100,9 @@ pub(crate) struct Cutting {
 }
 
 impl Cutting {
-    /// Which side of the ground counts of a part: above (1), below (−1), or both.
-    fn sense(self, part: Part) -> Option<f64> {
-        match part {
-            Part::CutSlope if !self.whole => Some(-1.0),
-            Part::FillSlope if !self.whole => Some(1.0),
-            _ => None,
-        }
-    }
-
     /// Whether the ground cuts off a part.
     fn concerns(self, part: Part) -> bool {
-        self.at_rim || self.sense(part).is_some()
+        self.at_rim || sense(part, self.whole).is_some()
     }
 
     /// Whether any of the design goes on beyond the edge of the ground although it is not to be cut off there.
@@ -125,7 +117,8 @@ impl Trimmed {
     ///
     /// # Errors
     /// [`RegionError`] if a piece cannot be triangulated.
-    pub(crate) fn new(shape: &Shape, patch: &Patch, works: &Works, nodes: &Nodes, cutting: Cutting) -> Result<Self, RegionError> {
+    pub(crate) fn new(meeting: Meeting, cutting: Cutting) -> Result<Self, RegionError> {
+        let Meeting { shape, works, nodes, .. } = meeting;
         let mut trimmed = Self::default();
         let mut cells: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
         for &(a, b) in &works.cells {
@@ -145,9 +138,9 @@ impl Trimmed {
             let edges = match cells.get(&a) {
                 Some(over) => {
                     let rims = rims.get(&a).map_or(&[][..], |list| list);
-                    Some(trimmed.piece(shape, patch, works, nodes, cutting.sense(part), a, over, rims))
+                    Some(trimmed.piece(meeting, sense(part, cutting.whole), a, over, rims))
                 }
-                None => trimmed.with_points(shape, works, nodes, a),
+                None => trimmed.with_points(meeting, a),
             };
             match edges {
                 None => trimmed.push(shape.triangles[a as usize].map(|v| nodes.design(v)), a),
@@ -172,18 +165,8 @@ impl Trimmed {
     }
 
     /// Edges of the part of triangle `a` in the works.
-    #[allow(clippy::too_many_arguments)]
-    fn piece(
-        &mut self,
-        shape: &Shape,
-        patch: &Patch,
-        works: &Works,
-        nodes: &Nodes,
-        sense: Option<f64>,
-        a: u32,
-        over: &[u32],
-        rims: &[Border],
-    ) -> Vec<[u32; 2]> {
+    fn piece(&mut self, meeting: Meeting, sense: Option<f64>, a: u32, over: &[u32], rims: &[Border]) -> Vec<[u32; 2]> {
+        let Meeting { shape, patch, works, nodes } = meeting;
         let paths = [0, 1, 2_usize].map(|i| {
             let labels = works.on_design.get(&shape.edge(a, i as u8)).map_or(&[][..], |list| list);
             let ends = [i, (i + 1) % 3].map(|n| nodes.design(shape.triangles[a as usize][n]));
@@ -234,7 +217,8 @@ impl Trimmed {
     }
 
     /// Edges of a triangle that stays as it is but for points on its sides; `None` if it has none.
-    fn with_points(&mut self, shape: &Shape, works: &Works, nodes: &Nodes, a: u32) -> Option<Vec<[u32; 2]>> {
+    fn with_points(&mut self, meeting: Meeting, a: u32) -> Option<Vec<[u32; 2]>> {
+        let Meeting { shape, works, nodes, .. } = meeting;
         let t = shape.triangles[a as usize];
         let lists = [0, 1, 2].map(|i| works.on_design.get(&shape.edge(a, i)).map_or(&[][..], |list| list));
         if lists.iter().all(|list| list.is_empty()) {

@@ -1,6 +1,7 @@
-//! Numbers only: local frame, sums, higher precision, orientation, boxes and trees of them.
+//! Numbers only: local frame, sums, higher precision, orientation, boxes and trees of them, buckets.
 
 pub mod box_tree;
+pub mod buckets;
 pub mod dd;
 pub mod frame;
 pub mod hash;

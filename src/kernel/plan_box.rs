@@ -47,6 +47,11 @@ impl PlanBox {
         self.lo.cmple(p).all() && p.cmple(self.hi).all()
     }
 
+    /// Whether it holds nothing.
+    pub fn is_empty(&self) -> bool {
+        !self.lo.cmple(self.hi).all()
+    }
+
     /// Width and height; −∞ of an empty box.
     pub fn size(&self) -> DVec2 {
         self.hi - self.lo
@@ -73,5 +78,6 @@ mod tests {
         let meets = |x, y| bounds.meets(&PlanBox::of([p(x, y)]));
         assert!(meets(1.0, 7.0) && meets(0.0, 6.0) && !meets(1.1, 6.0) && !meets(0.0, 4.9));
         assert!(!bounds.meets(&PlanBox::EMPTY) && !PlanBox::EMPTY.meets(&PlanBox::EMPTY) && PlanBox::of([]) == PlanBox::EMPTY);
+        assert!(PlanBox::EMPTY.is_empty() && !PlanBox::of([p(4.0, 6.0)]).is_empty());
     }
 }

@@ -25,12 +25,8 @@ impl Tilted {
             .fold(DVec2::ZERO, |longest, d| if d.length_squared() > longest.length_squared() { d } else { longest });
         let along = longest.normalize_or(DVec2::X);
         let centre = 0.5 * bounds.lo + 0.5 * bounds.hi;
-        let (mut lo, mut hi) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        for p in segments.iter().flat_map(|&(a, b)| [a, b]) {
-            let d = p - centre;
-            let q = DVec2::new(along.dot(d), along.perp_dot(d));
-            (lo, hi) = (lo.min(q), hi.max(q));
-        }
+        let turned = |p: DVec2| DVec2::new(along.dot(p - centre), along.perp_dot(p - centre));
+        let PlanBox { lo, hi } = PlanBox::of(segments.iter().flat_map(|&(a, b)| [a, b]).map(turned));
         let middle = 0.5 * (lo + hi);
         let rounding = 16.0 * ROUNDING * bounds.lo.abs().max(bounds.hi.abs()).max_element();
         Self {

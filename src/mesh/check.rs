@@ -1,5 +1,6 @@
 //! Whether triangles form a surface: every defect counted on the mesh itself.
 
+use crate::kernel::buckets::Buckets;
 use crate::kernel::orientation::{Turn, turn};
 use crate::kernel::segment_tree::SegmentTree;
 use glam::{DVec2, DVec3};
@@ -33,53 +34,20 @@ impl Soundness {
     }
 }
 
-/// Vertices whose edges are sorted at one go.
-const RUN: usize = 1024;
-
 /// The directed edges of a mesh, by their start.
-pub struct HalfEdges {
-    start: Vec<u32>,
-    to: Vec<u32>,
-}
+pub struct HalfEdges(Buckets<u32>);
 
 impl HalfEdges {
-    /// Collects the edges of `triangles` over `count` vertices: a counting sort.
+    /// Collects the edges of `triangles` over `count` vertices.
     pub fn new(count: usize, triangles: &[[u32; 3]]) -> Self {
-        let mut start = vec![0_u32; count + 1];
-        for &v in triangles.as_flattened() {
-            start[v as usize + 1] += 1;
-        }
-        for v in 0..count {
-            start[v + 1] += start[v];
-        }
-        let mut next = start.clone();
-        let mut to = vec![0_u32; 3 * triangles.len()];
-        for t in triangles {
-            for i in 0..3 {
-                let slot = &mut next[t[i] as usize];
-                to[*slot as usize] = t[(i + 1) % 3];
-                *slot += 1;
-            }
-        }
-        let mut rest = to.as_mut_slice();
-        let mut runs: Vec<(&[u32], &mut [u32])> = Vec::with_capacity(count.div_ceil(RUN));
-        for first in (0..count).step_by(RUN) {
-            let starts = &start[first..=count.min(first + RUN)];
-            let (run, tail) = rest.split_at_mut((starts[starts.len() - 1] - starts[0]) as usize);
-            runs.push((starts, run));
-            rest = tail;
-        }
-        runs.into_par_iter().for_each(|(starts, run)| {
-            for w in starts.windows(2) {
-                run[(w[0] - starts[0]) as usize..(w[1] - starts[0]) as usize].sort_unstable();
-            }
-        });
-        Self { start, to }
+        let mut edges = Buckets::new(count, triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]));
+        edges.sort_each(u32::cmp);
+        Self(edges)
     }
 
     /// Ends of the edges that leave `v`, ascending.
     pub fn from(&self, v: u32) -> &[u32] {
-        &self.to[self.start[v as usize] as usize..self.start[v as usize + 1] as usize]
+        self.0.of(v)
     }
 
     /// Whether a triangle runs from `v` to `w`.
@@ -89,7 +57,7 @@ impl HalfEdges {
 
     /// Edges without an opposite one, by their start.
     pub fn open(&self) -> Vec<[u32; 2]> {
-        let vertices = (0..self.start.len() as u32 - 1).into_par_iter();
+        let vertices = (0..self.0.count() as u32).into_par_iter();
         vertices.flat_map_iter(|v| self.from(v).iter().filter(move |&&w| !self.has(w, v)).map(move |&w| [v, w])).collect()
     }
 }

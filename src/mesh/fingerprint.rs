@@ -1,9 +1,10 @@
 //! A hash of a mesh as a surface: the same for the same triangles, in whatever order and numbering.
 
+use crate::kernel::buckets::Buckets;
 use crate::kernel::hash::hex;
+use crate::kernel::range::range;
 use crate::model::Tin;
 use glam::DVec3;
-use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 use std::cmp::Ordering;
 
@@ -45,10 +46,7 @@ fn places(tin: &Tin) -> Vec<(DVec3, u32)> {
     let used: Vec<u32> = (0..tin.vertices.len() as u32).filter(|&v| used[v as usize]).collect();
     // Adding nought makes 0 of −0.
     let place = |v: u32| tin.world(v as usize) + DVec3::ZERO;
-    let (lo, hi) = used.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), &v| {
-        let x = place(v).x;
-        (lo.min(x), hi.max(x))
-    });
+    let (lo, hi) = range(used.iter().map(|&v| place(v).x));
     // Ascends with x, whatever the rounding. Where all have the same x it is not a number, and all go into the first strip.
     let strips = used.len() / BUCKET + 1;
     let strip = |p: DVec3| ((strips as f64 * ((p.x - lo) / (hi - lo))) as usize).min(strips - 1);
@@ -91,27 +89,9 @@ fn sorted<T: Copy + Default + Send>(
     bucket: impl Fn(&T) -> usize,
     compare: impl Fn(&T, &T) -> Ordering + Sync,
 ) -> Vec<T> {
-    let mut begins = vec![0; buckets + 1];
-    items.clone().for_each(|item| begins[bucket(&item) + 1] += 1);
-    for b in 0..buckets {
-        begins[b + 1] += begins[b];
-    }
-    let mut next = begins.clone();
-    let mut sorted = vec![T::default(); begins[buckets]];
-    for item in items {
-        let place = &mut next[bucket(&item)];
-        sorted[*place] = item;
-        *place += 1;
-    }
-    let mut rest = &mut sorted[..];
-    let mut slices = Vec::with_capacity(buckets);
-    for ends in begins.windows(2) {
-        let (slice, after) = rest.split_at_mut(ends[1] - ends[0]);
-        slices.push(slice);
-        rest = after;
-    }
-    slices.into_par_iter().for_each(|slice| slice.sort_unstable_by(&compare));
-    sorted
+    let mut sorted = Buckets::new(buckets, items.map(|item| (bucket(&item) as u32, item)));
+    sorted.sort_each(compare);
+    sorted.into_things()
 }
 
 fn compare(a: DVec3, b: DVec3) -> Ordering {

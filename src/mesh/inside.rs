@@ -3,6 +3,7 @@
 use super::region::RegionError;
 use crate::kernel::frame::Frame;
 use crate::kernel::orientation::{Turn, turn};
+use crate::kernel::plan_box::PlanBox;
 use crate::kernel::segment_tree::SegmentTree;
 use crate::model::Terrain;
 use glam::{DVec2, DVec3};
@@ -16,8 +17,8 @@ use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 /// [`RegionError`] if rings cross, or a coordinate cannot be triangulated.
 pub fn inside(rings: &[Vec<DVec2>]) -> Result<Terrain, RegionError> {
     let all = || rings.iter().flatten();
-    let (lo, hi) = all().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(lo, hi), p| (lo.min(*p), hi.max(*p)));
-    let frame = if lo.cmple(hi).all() { Frame::around(lo, hi) } else { Frame::WORLD };
+    let bounds = PlanBox::of(all().copied());
+    let frame = if bounds.is_empty() { Frame::WORLD } else { Frame::around(bounds.lo, bounds.hi) };
     let local = |p: &DVec2| frame.to_local(p.extend(0.0)).truncate();
     let points: Vec<Point2<f64>> = all().map(local).map(|p| Point2::new(p.x, p.y)).collect();
     let mut edges = Vec::with_capacity(points.len());

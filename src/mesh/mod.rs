@@ -4,6 +4,7 @@ pub mod check;
 pub mod drape;
 pub mod fingerprint;
 pub mod inside;
+pub(crate) mod neighbours;
 pub mod polygon;
 pub mod quality;
 pub mod raster;

@@ -1,6 +1,7 @@
 //! Heights of a mesh at the nodes of a grid.
 
 use crate::kernel::orientation::doubled_area;
+use crate::kernel::plan_box::PlanBox;
 use crate::model::Tin;
 use crate::sheet::Grid;
 use glam::{DVec2, DVec3};
@@ -19,17 +20,12 @@ const ON_EDGE: f64 = 1e-6;
 /// # Errors
 /// Columns and rows, if there would be more than `most` nodes.
 pub fn cover(tin: &Tin, cell: f64, most: f64) -> Result<Option<Grid>, DVec2> {
-    let (mut lo, mut hi) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    for v in &tin.vertices {
-        let world = tin.frame.to_world(*v).truncate();
-        lo = lo.min(world);
-        hi = hi.max(world);
-    }
-    if !lo.cmple(hi).all() {
+    let bounds = PlanBox::of(tin.vertices.iter().map(|v| tin.frame.to_world(*v).truncate()));
+    if bounds.is_empty() {
         return Ok(None);
     }
-    let first = (lo / cell + ON_EDGE).floor();
-    let count = (hi / cell - ON_EDGE).ceil() - first;
+    let first = (bounds.lo / cell + ON_EDGE).floor();
+    let count = (bounds.hi / cell - ON_EDGE).ceil() - first;
     // Of a cell far below the last digit of the coordinates there is no count.
     if !count.is_finite() {
         return Err(count);

@@ -1,6 +1,6 @@
 //! What is to be built on the line.
 
-use super::Slope;
+use super::{Line, Slope};
 use crate::kernel::frame::Frame;
 
 /// Which of the two sheets through the line.
@@ -65,6 +65,18 @@ pub struct Design {
     pub frame: Option<Frame>,
     /// Whether the line's heights are moved a little, so that parts of it that just touch no longer do.
     pub joggle: Option<Joggle>,
+}
+
+impl Design {
+    /// Whether slopes are wanted inside rings alone: a pit or a mound, with a floor.
+    pub fn only_inside(&self, line: &Line) -> bool {
+        self.side_of_rings == Side::Inside && line.chains.iter().all(|c| c.closed())
+    }
+
+    /// The tightest of the tolerances of designs; infinite for none.
+    pub fn least_tolerance(designs: &[Self]) -> f64 {
+        designs.iter().map(|design| design.tolerance).fold(f64::INFINITY, f64::min)
+    }
 }
 
 /// Small shifts of the line's vertices in height, each of its own but the same in every run.

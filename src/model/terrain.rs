@@ -1,7 +1,9 @@
 //! Existing ground.
 
 use crate::kernel::frame::Frame;
-use glam::{DVec2, DVec3};
+use crate::kernel::plan_box::PlanBox;
+use crate::kernel::range::range;
+use glam::DVec3;
 use rayon::prelude::*;
 
 /// Vertices a thread looks at in one go.
@@ -27,21 +29,17 @@ impl Terrain {
         self.triangles[t].map(|v| self.vertices[v as usize])
     }
 
-    /// Plan box of all vertices in the local frame, lower left and upper right; both infinite the wrong way round if there are
-    /// none.
-    pub fn plan_box(&self) -> (DVec2, DVec2) {
-        let empty = || (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        let wider = |(lo, hi): (DVec2, DVec2), (a, b): (DVec2, DVec2)| (lo.min(a), hi.max(b));
-        let of_some = |some: &[DVec3]| some.iter().fold(empty(), |all, v| wider(all, (v.truncate(), v.truncate())));
-        self.vertices.par_chunks(CHUNK).map(of_some).reduce(empty, wider)
+    /// Plan box of all vertices in the local frame.
+    pub fn plan_box(&self) -> PlanBox {
+        let of_some = |some: &[DVec3]| PlanBox::of(some.iter().map(|v| v.truncate()));
+        self.vertices.par_chunks(CHUNK).map(of_some).reduce(|| PlanBox::EMPTY, PlanBox::join)
     }
 
     /// Lowest and highest vertex; the wrong way round if there are none.
     pub fn height_range(&self) -> (f64, f64) {
-        let empty = || (f64::INFINITY, f64::NEG_INFINITY);
+        let of_some = |some: &[DVec3]| range(some.iter().map(|v| v.z));
         let wider = |(lo, hi): (f64, f64), (a, b): (f64, f64)| (lo.min(a), hi.max(b));
-        let of_some = |some: &[DVec3]| some.iter().fold(empty(), |all, v| wider(all, (v.z, v.z)));
-        self.vertices.par_chunks(CHUNK).map(of_some).reduce(empty, wider)
+        self.vertices.par_chunks(CHUNK).map(of_some).reduce(|| range([]), wider)
     }
 
     /// The same ground in another frame.

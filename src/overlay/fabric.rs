@@ -2,14 +2,13 @@
 
 use super::boxes::{Boxes, beyond};
 use super::hilbert;
+use crate::kernel::buckets::Buckets;
 use crate::kernel::frame::Frame;
 use crate::kernel::plan_box::PlanBox;
 use crate::kernel::sum::Sum;
+use crate::mesh::neighbours::{NONE, opposites};
 use crate::model::Terrain;
 use glam::DVec3;
-
-/// No neighbour, no number.
-pub(super) const NONE: u32 = u32::MAX;
 
 /// Marks a vertex that a triangle uses, beside the bits of [`beyond`].
 const USED: u8 = 1 << 4;
@@ -59,7 +58,8 @@ impl Fabric {
         for t in &mut kept {
             *t = t.map(|v| rank[v as usize]);
         }
-        let mut triangles = by_key(vertices.len(), &kept, |t| t[0].min(t[1]).min(t[2]));
+        let lowest = |t: &[u32; 3]| t[0].min(t[1]).min(t[2]);
+        let mut triangles = Buckets::new(vertices.len(), kept.iter().map(|t| (lowest(t), *t))).into_things();
         // Looked at only now, when triangles that follow each other have their corners near each other in memory.
         triangles.retain_mut(|t| {
             let double_area = double_area(t.map(|v| vertices[v as usize]));
@@ -94,24 +94,6 @@ pub(super) fn double_area([a, b, c]: [DVec3; 3]) -> f64 {
     (b - a).truncate().perp_dot((c - a).truncate())
 }
 
-/// Stable counting sort of `items` by a key below `keys`.
-fn by_key<T: Copy + Default>(keys: usize, items: &[T], key: impl Fn(&T) -> u32) -> Vec<T> {
-    let mut next = vec![0_u32; keys + 1];
-    for item in items {
-        next[key(item) as usize + 1] += 1;
-    }
-    for k in 0..keys {
-        next[k + 1] += next[k];
-    }
-    let mut sorted = vec![T::default(); items.len()];
-    for item in items {
-        let slot = &mut next[key(item) as usize];
-        sorted[*slot as usize] = *item;
-        *slot += 1;
-    }
-    sorted
-}
-
 /// A fabric with its neighbours and the means to find a triangle.
 #[derive(Debug)]
 pub(super) struct Linked<'a> {
@@ -135,61 +117,4 @@ impl<'a> Linked<'a> {
         let rim_boxes = Boxes::new(rim.len(), |i| fabric.bounds(rim[i]));
         Self { fabric, opposite, boxes, rim, rim_boxes }
     }
-}
-
-/// Around a vertex with more edges than this they are sorted before they are matched.
-const MANY: usize = 24;
-
-/// Pairs the half-edges that run against each other.
-fn opposites(vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
-    let ends = |half: u32| {
-        let t = triangles[half as usize / 3];
-        let e = half as usize % 3;
-        (t[e], t[if e == 2 { 0 } else { e + 1 }])
-    };
-    // By their lesser end: (half-edge, greater end, direction).
-    let mut start = vec![0_u32; vertices + 1];
-    for t in triangles {
-        for e in 0..3 {
-            start[t[e].min(t[(e + 1) % 3]) as usize + 1] += 1;
-        }
-    }
-    for v in 0..vertices {
-        start[v + 1] += start[v];
-    }
-    let mut halves = vec![(0_u32, 0_u32); 3 * triangles.len()];
-    let mut next = start.clone();
-    for half in 0..3 * triangles.len() as u32 {
-        let (u, v) = ends(half);
-        let slot = &mut next[u.min(v) as usize];
-        halves[*slot as usize] = (half, u.max(v));
-        *slot += 1;
-    }
-    let upwards = |half: u32| {
-        let (u, v) = ends(half);
-        u < v
-    };
-    let mut opposite = vec![NONE; 3 * triangles.len()];
-    for v in 0..vertices {
-        let around = &mut halves[start[v] as usize..start[v + 1] as usize];
-        if around.len() > MANY {
-            around.sort_unstable_by_key(|&(half, far)| (far, half));
-        }
-        for i in 0..around.len() {
-            let (half, far) = around[i];
-            if opposite[half as usize] != NONE {
-                continue;
-            }
-            let later = around[i + 1..].iter().take_while(|o| around.len() <= MANY || o.1 == far);
-            let partner = later
-                .filter(|o| o.1 == far && opposite[o.0 as usize] == NONE)
-                .find(|o| upwards(o.0) != upwards(half))
-                .map(|o| o.0);
-            if let Some(partner) = partner {
-                opposite[half as usize] = partner;
-                opposite[partner as usize] = half;
-            }
-        }
-    }
-    opposite
 }

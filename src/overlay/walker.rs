@@ -1,8 +1,9 @@
 //! Goes through the triangles of a mesh that share plan area with a given one.
 
 use super::cell::{CUT, Corner, Patch, Ring, clip};
-use super::fabric::{Linked, NONE};
+use super::fabric::Linked;
 use crate::kernel::plan_box::PlanBox;
+use crate::mesh::neighbours::NONE;
 use glam::{DVec2, DVec3};
 use std::ops::ControlFlow;
 

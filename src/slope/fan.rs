@@ -2,6 +2,7 @@
 
 use super::facet::{Facet, FacetId, Lateral};
 use super::network::{HalfEdge, Network, twin};
+use crate::kernel::buckets::Buckets;
 use glam::DVec2;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -35,18 +36,15 @@ pub struct Fans {
     pub joints: Vec<Joint>,
     /// Sectors of each node: `sectors[start[n]..start[n + 1]]` of the facet list.
     pub sector_start: Vec<u32>,
-    /// Half-edges leaving each node: `outgoing[outgoing_start[n]..]`.
-    pub outgoing_start: Vec<u32>,
-    /// See `outgoing_start`.
-    pub outgoing: Vec<HalfEdge>,
+    /// Half-edges leaving each node.
+    outgoing: Buckets<HalfEdge>,
 }
 
 impl Fans {
     /// Builds strips, sectors and joints for slope `k`.
     pub fn new(network: &Network, k: f64) -> Self {
         let strips = (0..2 * network.edges.len() as u32).map(|h| Facet::strip(network, h, k)).collect();
-        let (outgoing_start, outgoing) = network.outgoing();
-        let mut fans = Self { facets: strips, joints: Vec::new(), sector_start: Vec::new(), outgoing_start, outgoing };
+        let mut fans = Self { facets: strips, joints: Vec::new(), sector_start: Vec::new(), outgoing: network.outgoing() };
         for node in 0..network.nodes.len() as u32 {
             fans.sector_start.push(fans.facets.len() as u32);
             fans.add_node(network, node, k);
@@ -57,8 +55,7 @@ impl Fans {
 
     /// Half-edges leaving a node.
     pub fn leaving(&self, node: u32) -> &[HalfEdge] {
-        let n = node as usize;
-        &self.outgoing[self.outgoing_start[n] as usize..self.outgoing_start[n + 1] as usize]
+        self.outgoing.of(node)
     }
 
     fn add_node(&mut self, network: &Network, node: u32, k: f64) {

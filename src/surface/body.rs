@@ -1,19 +1,14 @@
 //! The mesh of a surface with what is known of its triangles and edges.
 
+use super::error_bound::{self, Moves};
 use super::flats::Flats;
-use super::{CHORD_SHARE, Ends, Mark, PlatformStation, Volumes, feet};
-use crate::kernel::sum::Sum;
-use crate::mesh::check::owners;
+use super::{Mark, PlatformStation, Volumes, feet};
 use crate::mesh::volume;
-use crate::model::{Chain, Design, Extent, Line, Part, Sheet as SheetKind, Side, Tin};
+use crate::model::{Design, Part, Sheet as SheetKind, Tin};
 use crate::slope::emit::{self, Slopes, Trace};
 use crate::slope::network::Network;
 use glam::DVec3;
 use rayon::prelude::*;
-use rustc_hash::FxHashSet;
-
-/// An edge across which a slope has less than this share of itself is a ruling.
-const RULING: f64 = 1e-4;
 
 /// The mesh with what is known of its triangles.
 pub(crate) struct Body {
@@ -116,7 +111,7 @@ impl Body {
     pub(super) fn volumes(&self, elevation: f64, moves: &Moves, open: &[[u32; 2]]) -> Volumes {
         let (found, error_bound) = rayon::join(
             || volume::above_plane((0..self.tin.triangles.len()).map(|t| self.tin.corners(t)), elevation),
-            || self.error_bound(elevation, moves, open),
+            || error_bound::of(self, elevation, moves, open),
         );
         Volumes {
             cut: found.cut,
@@ -126,83 +121,5 @@ impl Body {
             cut_max: found.cut_max,
             fill_max: found.fill_max,
         }
-    }
-
-    /// What the sheet of the line as given can hold more or less than the mesh: a layer on all of it, one more on cones, and a strip
-    /// along its border (`open`), as high as the border stands above or below the plane (docs/theory.md, Section 12).
-    fn error_bound(&self, elevation: f64, moves: &Moves, open: &[[u32; 2]]) -> f64 {
-        let area = |t: usize| volume::plan_area(self.tin.corners(t));
-        let all = (0..self.tin.triangles.len()).map(area).collect::<Sum>().value();
-        let cones = (0..self.on_cone.len()).filter(|&t| self.on_cone[t]).map(area).collect::<Sum>().value();
-        let owners = owners(open, self.tin.vertices.len(), &self.tin.triangles);
-        // Where both sides have slopes, the line is no border.
-        let hinges = self.traces.iter().filter(|(trace, _)| moves.one_sided && matches!(trace, Trace::Hinge(_)));
-        let hinges: FxHashSet<[u32; 2]> = hinges.flat_map(|&(_, [a, b])| [[a, b], [b, a]]).collect();
-        let strip = |(edge, owner): (&[u32; 2], u32)| {
-            let ends = edge.map(|v| self.tin.vertices[v as usize]);
-            let on_cone = self.on_cone.get(owner as usize).is_some_and(|&on_cone| on_cone);
-            let curved = on_cone || moves.one_sided && !hinges.contains(edge) && ends.iter().any(|p| p.z != elevation);
-            let height = 0.5 * ends.iter().map(|p| (p.z - elevation).abs()).sum::<f64>();
-            moves.strip(ends, curved) * (height + moves.line + moves.cone)
-        };
-        moves.line * all + moves.cone * cones + open.iter().zip(owners).map(strip).collect::<Sum>().value()
-    }
-}
-
-/// How far the sheet of the line as given may be from the mesh.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Moves {
-    /// In height, through simplifying and moving the line, and through chords of rounded corners of roads: at most.
-    pub(crate) line: f64,
-    /// In height, through chords, on cones alone: at most.
-    pub(crate) cone: f64,
-    /// Height over distance in plan: what turns heights into shifts of the border.
-    slope: f64,
-    /// Whether there are corners with a slope on one side only: on the other side there may be cones that are not part of the mesh.
-    pub(crate) one_sided: bool,
-}
-
-impl Moves {
-    /// `simplified_max` is the greatest displacement of a vertex, in the metric of the sheet.
-    pub(crate) fn new(line: &Line, design: &Design, simplified_max: f64) -> Self {
-        let slope = design.slope.ratio();
-        let sagitta = line.chains.iter().filter_map(|c| c.axis.as_ref()).map(|axis| axis.sagitta).fold(0.0, f64::max);
-        let one_sided = |chain: &Chain| {
-            let side = if chain.closed() { design.side_of_rings } else { design.side_of_lines };
-            side != Side::Both && chain.segment_count() > 1
-        };
-        Self {
-            line: simplified_max + slope * sagitta,
-            cone: CHORD_SHARE * design.tolerance,
-            slope,
-            one_sided: line.chains.iter().any(one_sided),
-        }
-    }
-
-    /// Area of the strip by which an edge of the border may be off; `curved` if it may be that of a cone.
-    ///
-    /// Where a side of the line has no slope, the border may run where the slope would meet that of the other side. Two planes of one
-    /// slope that meet along an edge differ across it by twice the slope they have there, and each may be off.
-    pub(crate) fn strip(&self, [p, q]: [DVec3; 2], curved: bool) -> f64 {
-        let length = p.truncate().distance(q.truncate());
-        let along = (p.z - q.z).abs() / length;
-        let across = ((self.slope - along) * (self.slope + along)).max(0.0).sqrt();
-        let off = self.line + if curved { self.cone } else { 0.0 };
-        // The ruling a slope ends in stays where it is.
-        if across > RULING * self.slope { length * off / across } else { 0.0 }
-    }
-}
-
-/// The plane that volumes are measured from, where none is given: the elevation the slopes end at, inside rings that of the rim.
-pub(super) fn reference(line: &Line, design: &Design, ends: &Ends) -> f64 {
-    let falling = design.sheet == SheetKind::Falling;
-    let (low, high) = line.elevation_range();
-    let inside = design.side_of_rings == Side::Inside && line.chains.iter().all(|c| c.closed());
-    match design.extent {
-        _ if inside && falling => high,
-        _ if inside => low,
-        Extent::Elevation(z) => z,
-        _ if falling => ends.lowest,
-        _ => -ends.lowest,
     }
 }

@@ -1,5 +1,6 @@
 //! Line work: mesh edges with a meaning, chained to polylines.
 
+use crate::kernel::buckets::Buckets;
 use crate::model::{CurveKind, Line, LineFeature, Tin};
 
 /// Vertices are numbered anew where the numbers of a group run over so many times more than its segments.
@@ -71,24 +72,9 @@ pub fn chained(segments: &[[u32; 2]]) -> Vec<Vec<u32>> {
         let named = |path: Vec<u32>| path.into_iter().map(|v| ids[v as usize]).collect();
         return chained(&numbered).into_iter().map(named).collect();
     }
-    // Segments by vertex: `here[start[v]..start[v + 1]]`.
-    let mut start = vec![0_u32; (high.saturating_sub(low)) as usize + 2];
-    for &v in segments.as_flattened() {
-        start[(v - low) as usize + 1] += 1;
-    }
-    for v in 1..start.len() {
-        start[v] += start[v - 1];
-    }
-    let mut next = start.clone();
-    let mut here = vec![0_u32; 2 * segments.len()];
-    for (i, s) in segments.iter().enumerate() {
-        for v in s {
-            let slot = &mut next[(v - low) as usize];
-            here[*slot as usize] = i as u32;
-            *slot += 1;
-        }
-    }
-    let at = |v: u32| &here[start[(v - low) as usize] as usize..start[(v - low) as usize + 1] as usize];
+    let of_ends = |(i, &[a, b]): (u32, &[u32; 2])| [(a - low, i), (b - low, i)];
+    let by_vertex = Buckets::new(high.saturating_sub(low) as usize + 1, (0..).zip(segments).flat_map(of_ends));
+    let at = |v: u32| by_vertex.of(v - low);
     let mut used = vec![false; segments.len()];
     let walk = |from: u32, first: usize, used: &mut Vec<bool>| {
         let mut path = vec![from];

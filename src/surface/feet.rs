@@ -2,9 +2,11 @@
 
 use super::stations::Stations;
 use crate::kernel::range::held;
-use crate::model::Sheet;
+use crate::model::{Line, Sheet as SheetKind};
+use crate::slope::emit::Slopes;
 use crate::slope::facet::{Facet, Kind};
 use crate::slope::network::Network;
+use crate::slope::trim::Sheet;
 use glam::DVec2;
 
 /// The foot points of one facet, as stations: a linear function of the plan position on a strip, one station on a cone.
@@ -35,8 +37,29 @@ impl Foot {
     }
 }
 
+/// The facets that have triangles, and the one of each triangle.
+pub(super) fn of_triangles(line: &Line, sheet: &Sheet, slopes: &Slopes) -> (Vec<Foot>, Vec<u32>) {
+    let stations = Stations::on_axes(line);
+    let mut feet = Vec::new();
+    let mut last = None;
+    let mut foot_of = Vec::with_capacity(slopes.facets.len());
+    for &f in &slopes.facets {
+        if last != Some(f) {
+            let facet = sheet.facet(f);
+            let leaving = match facet.kind {
+                Kind::Strip(_) => None,
+                Kind::Sector(node) => sheet.fans.leaving(node).first().copied(),
+            };
+            feet.push(foot(facet, sheet.network, &stations, leaving));
+            last = Some(f);
+        }
+        foot_of.push(feet.len() as u32 - 1);
+    }
+    (feet, foot_of)
+}
+
 /// The foot points of `facet`; `leaving` is a half-edge that leaves the node of a sector.
-pub(super) fn foot(facet: &Facet, network: &Network, stations: &Stations, leaving: Option<u32>) -> Foot {
+fn foot(facet: &Facet, network: &Network, stations: &Stations, leaving: Option<u32>) -> Foot {
     let (half_edge, on_cone) = match facet.kind {
         Kind::Strip(h) => (h, false),
         Kind::Sector(_) => (leaving.unwrap_or(0), true),
@@ -63,9 +86,9 @@ pub(super) fn foot(facet: &Facet, network: &Network, stations: &Stations, leavin
 }
 
 /// The kind of crease of a sheet: the falling one is the greatest of its facets, where two meet it is lower than around.
-pub(super) fn crease(sheet: Sheet) -> super::Mark {
+pub(super) fn crease(sheet: SheetKind) -> super::Mark {
     match sheet {
-        Sheet::Falling => super::Mark::Valley,
-        Sheet::Rising => super::Mark::Ridge,
+        SheetKind::Falling => super::Mark::Valley,
+        SheetKind::Rising => super::Mark::Ridge,
     }
 }

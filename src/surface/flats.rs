@@ -6,7 +6,7 @@ use super::formation::{Roads, Threads};
 use crate::kernel::segment_tree::SegmentTree;
 use crate::mesh::check::HalfEdges;
 use crate::mesh::region::{self, RegionError};
-use crate::model::{Chain, Design, Extent, Line, Note, Role, Sheet, Side};
+use crate::model::{Chain, Design, Extent, Line, Note, Role, Sheet};
 use crate::slope::emit::{Slopes, Trace};
 use crate::slope::network::{Edge, Network};
 use rustc_hash::FxHashSet;
@@ -29,11 +29,6 @@ fn bounds_platform(edge: &Edge, side: usize) -> bool {
     edge.interior[side] && !edge.wanted[side]
 }
 
-/// Whether there are slopes inside rings only.
-fn only_inside(line: &Line, design: &Design) -> bool {
-    design.side_of_rings == Side::Inside && line.chains.iter().all(|c| c.closed())
-}
-
 /// Refuses platforms and rims that slopes pass over.
 pub(super) fn refuse_covered(line: &Line, design: &Design, network: &Network, hidden: &Found) -> Result<(), SurfaceError> {
     if network.edges.iter().any(|edge| bounds_platform(edge, 0) || bounds_platform(edge, 1)) {
@@ -41,7 +36,7 @@ pub(super) fn refuse_covered(line: &Line, design: &Design, network: &Network, hi
         if let Some(b) = hidden.stretches.iter().find(|b| line.chains[b.chain].closed()) {
             return Err(SurfaceError::PlatformCovered { x: b.at.x, y: b.at.y, what: b.told(line, design) });
         }
-    } else if only_inside(line, design) {
+    } else if design.only_inside(line) {
         keep_inside(line, design, hidden)?;
     }
     Ok(())
@@ -86,7 +81,7 @@ pub(super) fn fill(line: &Line, design: &Design, network: &Network, slopes: &mut
         let text = format!("breaklines and spot heights without a platform to shape: {}", line.breaklines.len());
         flats.notes.push(Note::new("breaklines-unused", text));
     }
-    if !only_inside(line, design) {
+    if !design.only_inside(line) {
         return Ok(flats);
     }
     let rim = rim(slopes);

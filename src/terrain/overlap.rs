@@ -3,6 +3,7 @@
 use super::at;
 use super::place::{defect, short};
 use crate::kernel::plan_box::PlanBox;
+use crate::kernel::range::range;
 use crate::model::{Defects, Line, Terrain};
 use glam::{DVec2, Vec2Swizzles};
 
@@ -45,7 +46,7 @@ fn text(PlanBox { lo, hi }: &PlanBox) -> String {
 /// front of the easting.
 pub fn check_overlap(terrain: &Terrain, ground: &str, line: &Line, label: &str) -> Result<(), Defects> {
     let world = |v: u32| terrain.frame.to_world(at(&terrain.vertices, v));
-    let road = PlanBox::of(line.chains.iter().flat_map(|chain| &chain.vertices).map(|v| v.truncate()));
+    let road = line.plan_box();
     let mut field = PlanBox::EMPTY;
     // The box only grows, so that the first part of the ground which meets the line decides.
     for some in terrain.triangles.chunks(CHUNK) {
@@ -56,7 +57,7 @@ pub fn check_overlap(terrain: &Terrain, ground: &str, line: &Line, label: &str) 
     }
     let heights = || {
         let corners = terrain.triangles.as_flattened().iter();
-        corners.map(|&v| world(v).z).fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), z| (lo.min(z), hi.max(z)))
+        range(corners.map(|&v| world(v).z))
     };
     let help = guess(&road, &field, heights)
         .unwrap_or_else(|| "check that both are in the same reference system and unit, and belong together".into());

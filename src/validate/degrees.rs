@@ -41,10 +41,11 @@ pub(super) fn check(raw: &RawInput, defects: &mut Defects, notes: &mut Vec<Note>
 /// statement is wrong and a note says so. An input that calls itself projected is believed. Only one that says nothing is
 /// judged by its figures, with the rule of the constants above, so that local site coordinates such as (0, 0) to (80, 40)
 /// pass.
-pub fn degrees(source: &Source, PlanBox { lo, hi }: PlanBox) -> Verdict {
-    if !lo.cmple(hi).all() {
+pub fn degrees(source: &Source, bounds: PlanBox) -> Verdict {
+    if bounds.is_empty() {
         return Verdict::Lengths;
     }
+    let PlanBox { lo, hi } = bounds;
     let in_range = lo.x >= -180.0 && hi.x <= 180.0 && lo.y >= -90.0 && hi.y <= 90.0;
     let extent = (hi - lo).max_element();
     let offset = lo.abs().max(hi.abs()).max_element();

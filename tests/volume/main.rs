@@ -15,6 +15,7 @@ mod random;
 use glam::{DVec2, DVec3};
 use random::Random;
 use slopegen::kernel::frame::Frame;
+use slopegen::kernel::plan_box::PlanBox;
 use slopegen::model::Terrain;
 use slopegen::overlay::{Between, between};
 use spade::{DelaunayTriangulation, Point2, Triangulation as _};
@@ -62,7 +63,7 @@ fn changed(mesh: &Terrain, change: impl Fn(DVec3) -> DVec3) -> Terrain {
 /// Moved to [`UTM`], in a frame of its own.
 fn far(mesh: &Terrain) -> Terrain {
     let moved = changed(mesh, |p| p + UTM.extend(0.0));
-    let (lo, hi) = moved.plan_box();
+    let PlanBox { lo, hi } = moved.plan_box();
     moved.in_frame(Frame::around(lo, hi))
 }
 

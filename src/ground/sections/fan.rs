@@ -2,6 +2,7 @@
 
 use super::chord::ON_PLANE;
 use crate::ground::Corner;
+use crate::kernel::plan_box::PlanBox;
 use glam::DVec2;
 
 /// The vertical plane of a section.
@@ -34,8 +35,7 @@ struct Run {
 
 impl Run {
     fn of(planes: &[Plane]) -> Self {
-        let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        let (lo, hi) = planes.iter().fold(empty, |(lo, hi), plane| (lo.min(plane.point), hi.max(plane.point)));
+        let PlanBox { lo, hi } = PlanBox::of(planes.iter().map(|plane| plane.point));
         let centre = 0.5 * (lo + hi);
         let along = planes.iter().map(|plane| plane.along).sum::<DVec2>().normalize_or_zero();
         let most = |of: fn(&Plane) -> DVec2, from: DVec2| planes.iter().map(|p| of(p).distance(from)).fold(0.0, f64::max);
@@ -82,8 +82,7 @@ impl Fan {
 
     /// Calls `visit` for every plane that may cross the polygon, and for few others.
     pub(super) fn near(&self, corners: &[Corner], mut visit: impl FnMut(usize, &Plane)) {
-        let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        let (lo, hi) = corners.iter().fold(empty, |(lo, hi), corner| (lo.min(corner.at), hi.max(corner.at)));
+        let PlanBox { lo, hi } = PlanBox::of(corners.iter().map(|corner| corner.at));
         let centre = 0.5 * (lo + hi);
         let radius = 0.5 * lo.distance(hi) + 2.0 * ON_PLANE;
         let leaves = self.nodes.len() / 2;

@@ -2,6 +2,7 @@
 
 use super::faces::{Faces, Facing};
 use super::finding::{Collector, Kind};
+use crate::kernel::buckets::Buckets;
 use crate::kernel::union::Union;
 
 /// An edge with one triangle, directed so that the triangle, seen from above and turned up, lies on its left.
@@ -62,37 +63,21 @@ impl Edges {
 /// Calls `visit` for every edge with its lower and higher vertex and its sides, three times the triangle plus the corner where
 /// the side begins, ascending.
 fn each_edge(faces: &Faces<'_>, mut visit: impl FnMut(u32, u32, &[u32])) {
-    let mut start = vec![0_u32; faces.subject.vertices.len() + 1];
     let ends = |side: usize| {
         let corners = faces.corners[side / 3];
         let (a, b) = (corners[side % 3], corners[(side % 3 + 1) % 3]);
         (a.min(b), a.max(b))
     };
-    let sides = 3 * faces.len();
-    for side in 0..sides {
-        start[ends(side).0 as usize + 1] += 1;
-    }
-    for v in 1..start.len() {
-        start[v] += start[v - 1];
-    }
     // The higher end above, the side below: sorted by both.
-    let mut entries = vec![0_u64; sides];
-    let mut next = start.clone();
-    for side in 0..sides {
-        let (lo, hi) = ends(side);
-        let slot = &mut next[lo as usize];
-        entries[*slot as usize] = u64::from(hi) << 32 | side as u64;
-        *slot += 1;
-    }
-    drop(next);
+    let sides = (0..3 * faces.len()).map(|side| (ends(side), side as u64));
+    let mut entries = Buckets::new(faces.subject.vertices.len(), sides.map(|((lo, hi), side)| (lo, u64::from(hi) << 32 | side)));
     let mut group = Vec::new();
-    for lo in 0..start.len() - 1 {
-        let bucket = &mut entries[start[lo] as usize..start[lo + 1] as usize];
+    for (bucket, lo) in entries.each_mut().zip(0..) {
         bucket.sort_unstable();
         for run in bucket.chunk_by(|a, b| a >> 32 == b >> 32) {
             group.clear();
             group.extend(run.iter().map(|&entry| entry as u32));
-            visit(lo as u32, (run[0] >> 32) as u32, &group);
+            visit(lo, (run[0] >> 32) as u32, &group);
         }
     }
 }

@@ -9,6 +9,7 @@ use super::faces::{Faces, Facing};
 use super::finding::{Collector, Kind};
 use super::weld;
 use crate::kernel::box_tree::BoxTree;
+use crate::kernel::buckets::Buckets;
 use crate::kernel::orientation::{Turn, turn};
 use crate::kernel::plan_box::PlanBox;
 use crate::kernel::segment_tree::SegmentTree;
@@ -101,32 +102,18 @@ fn covered_once(faces: &Faces<'_>) -> bool {
 fn simple_boundary(faces: &Faces<'_>) -> Option<Vec<[u32; 2]>> {
     let vertices = faces.subject.vertices;
     let first = weld::first_at_same_place(vertices.len(), |i| weld::in_plan(vertices[i].truncate()));
-    let mut start = vec![0_u32; vertices.len() + 1];
-    let sides = || {
-        (0..faces.len()).filter(|&f| matches!(faces.facing[f], Facing::Up | Facing::Down)).flat_map(|f| {
-            let [a, b, c] = faces.corners[f].map(|v| first[v as usize]);
-            let up = faces.facing[f] == Facing::Up;
-            [(a, b), (b, c), (c, a)].map(|(v, w)| (v.min(w), v.max(w), (v < w) == up))
-        })
-    };
-    sides().for_each(|(lo, ..)| start[lo as usize + 1] += 1);
-    for v in 1..start.len() {
-        start[v] += start[v - 1];
-    }
-    let mut next = start.clone();
-    let mut entries = vec![0_u64; start.last().map_or(0, |&n| n as usize)];
-    for (lo, hi, forward) in sides() {
-        let slot = &mut next[lo as usize];
-        entries[*slot as usize] = u64::from(hi) << 1 | u64::from(forward);
-        *slot += 1;
-    }
+    let sides = (0..faces.len()).filter(|&f| matches!(faces.facing[f], Facing::Up | Facing::Down)).flat_map(|f| {
+        let [a, b, c] = faces.corners[f].map(|v| first[v as usize]);
+        let up = faces.facing[f] == Facing::Up;
+        [(a, b), (b, c), (c, a)].map(|(v, w)| (v.min(w), v.max(w), (v < w) == up))
+    });
+    let mut entries = Buckets::new(vertices.len(), sides.map(|(lo, hi, forward)| (lo, u64::from(hi) << 1 | u64::from(forward))));
     let mut edges = Vec::new();
-    for lo in 0..vertices.len() {
-        let bucket = &mut entries[start[lo] as usize..start[lo + 1] as usize];
+    for (bucket, lo) in entries.each_mut().zip(0..) {
         bucket.sort_unstable();
         for run in bucket.chunk_by(|a, b| a >> 1 == b >> 1) {
             let forward = run.iter().filter(|&&entry| entry & 1 == 1).count();
-            let (lo, hi) = (lo as u32, (run[0] >> 1) as u32);
+            let hi = (run[0] >> 1) as u32;
             match (forward, run.len() - forward) {
                 (f, b) if f == b => {}
                 (f, b) if f == b + 1 => edges.push([lo, hi]),
