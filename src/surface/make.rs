@@ -24,7 +24,7 @@ const SIMPLIFY_SHARE: f64 = 1.0 / 3.0;
 pub(super) const CHORD_SHARE: f64 = 1.0 / 3.0;
 
 /// Share of the tolerance by which another sheet may be higher than what is built.
-const CLEAR_SHARE: f64 = 1.0 / 8.0;
+const CLEAR_SHARE: f64 = 0.125;
 
 /// The plane for volumes, where one was given.
 pub(super) struct Plane {
