@@ -89,7 +89,7 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     let mut blocks = Vec::new();
     if compacted.is_some() {
         blocks.push(Block::symbol(Sample::Line("ln design"), "running net, cut as compacted"));
-        blocks.push(Block::symbol(Sample::Line("ln ground"), "running net, as in the ground"));
+        blocks.push(Block::symbol(Sample::Line("ln ground"), "running net, as measured"));
     } else {
         blocks.push(Block::symbol(Sample::Line("ln design"), "running net (cut − fill)"));
     }
