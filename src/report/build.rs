@@ -84,7 +84,7 @@ impl Report {
             (None, false) => "the slopes do not reach their end everywhere",
             (Some(_), false) if told("open-ends") => "some slopes end without meeting the ground",
             (Some(_), false) => "there is no ground below a part of the works",
-            (Some(_), true) if told("walls") => "no slope stops short of the ground, but there are upright walls without a slope",
+            (Some(_), true) if told("walls") => "no slope stops short; where there is none stand upright walls",
             (Some(daylight), true) if daylight.loops == 0 => "all slopes reach their end",
             (Some(_), true) => "all slopes meet the ground",
         };

@@ -211,6 +211,25 @@ mod tests {
         compare(&render(&on_ground()), include_str!("../../tests/golden/report_ground.txt"), "report_ground.txt");
     }
 
+    /// The running net is measured, not in bank: its last figure and the platforms without stations are the net.
+    #[test]
+    fn the_running_net_ends_at_the_net() {
+        let report = on_ground();
+        let last = report.stations.as_ref().unwrap().last().unwrap();
+        let (pads, volumes) = (report.pads.unwrap(), report.volumes.as_ref().unwrap());
+        assert!((last.net_cumulative + pads.cut - pads.fill - volumes.net).abs() < 1e-9);
+        let soil = volumes.bulking.unwrap();
+        assert!((soil.net_bank - volumes.net).abs() > 1.0, "in bank it is another figure");
+        let text = render(&report);
+        let row = text.lines().find(|line| line.trim_start().starts_with(&format!("{:.2}", last.from))).unwrap();
+        let heads = text.lines().find(|line| line.contains("as measured")).unwrap();
+        // The column below these words.
+        let end = heads.find("as measured").unwrap() + "as measured".len();
+        let figure = row[..end].split_whitespace().last().unwrap();
+        assert_eq!(figure, format!("{:.2}", last.net_cumulative));
+        assert!(!text.contains("in bank"), "{text}");
+    }
+
     fn markdown(report: &Report) -> String {
         let mut bytes = Vec::new();
         write_markdown(&mut bytes, report).unwrap();

@@ -19,7 +19,8 @@ fn pad(z: f64) -> String {
 fn level() -> Site {
     let site = Site::with("level.obj", LEVEL);
     fs::write(site.path("up.csv"), pad(2.0)).unwrap();
-    fs::write(site.path("down.csv"), pad(-2.0)).unwrap();
+    fs::write(site.path("rim.csv"), pad(0.004)).unwrap();
+    fs::write(site.path("low.csv"), pad(-2.0)).unwrap();
     site
 }
 
@@ -68,17 +69,18 @@ fn names_of_reference_systems_go_with_their_coordinates() {
     let fixture = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/landxml/site.xml");
     fs::copy(fixture, site.path("site.xml")).unwrap();
     let outputs = "-o m.obj -o m.xml --lines l.geojson --plot plan.svg --quiet";
+    let heads = [("m.obj", "# crs: "), ("m.xml", "<CoordinateSystem"), ("l.geojson", "\"crs\""), ("plan.svg", "EPSG")];
     for (units, kept) in [("m", true), ("ft", false)] {
         site.run(&format!("build site.xml --feature axis --slope 1:2 --units {units} {outputs}")).done();
-        for file in ["m.obj", "m.xml", "l.geojson", "plan.svg"] {
-            assert_eq!(site.read(file).contains("25832"), kept, "{file} in {units}");
+        for (file, head) in heads {
+            assert_eq!(site.read(file).contains(head), kept, "{file} in {units}");
         }
     }
     let road = site.read("road.geojson").replace("25832", "4326");
     fs::write(site.path("road.geojson"), road).unwrap();
     site.run(&format!("build road.geojson --slope 1:2 {outputs}")).done();
-    for file in ["m.obj", "m.xml", "l.geojson", "plan.svg"] {
-        assert!(!site.read(file).contains("4326"), "{file}");
+    for (file, head) in heads {
+        assert!(!site.read(file).contains(head), "{file}");
     }
 }
 
@@ -98,9 +100,11 @@ fn complete_in_words() {
         line.to_owned()
     };
     assert_eq!(complete("up.csv"), "yes, all slopes meet the ground");
-    assert_eq!(complete("down.csv --side inside --direction down --height 1"), "yes, all slopes reach their end");
-    let walls = complete("up.csv --direction up");
-    assert_eq!(walls, "yes, no slope stops short of the ground, but there are upright walls without a slope");
+    // The rim is within the tolerance of the ground, and does not meet it.
+    assert_eq!(complete("rim.csv --side inside --direction down --height 1"), "yes, all slopes reach their end");
+    for walls in ["up.csv --direction up", "low.csv --side inside --direction down --height 1"] {
+        assert_eq!(complete(walls), "yes, no slope stops short; where there is none stand upright walls", "{walls}");
+    }
     // The end is asked for, and no edge of the ground: the length is that of the note.
     assert_eq!(complete("up.csv --height 1 --allow-open"), "NO, some slopes end without meeting the ground");
     let report = json(&site, "r.json");
@@ -201,9 +205,15 @@ fn cures_name_options_that_are_there() {
 #[test]
 fn standard_output_comes_last() {
     let site = level();
-    for command in ["volume level.obj level.obj", "build road.geojson --slope 1:2 -o m.obj"] {
-        let run = site.run(&format!("{command} --report /dev/full"));
-        assert_eq!((run.code, run.stdout.as_str()), (4, ""), "{command}: {}", run.stderr);
+    std::os::unix::fs::symlink("/dev/full", site.path("full")).unwrap();
+    std::os::unix::fs::symlink("/dev/full", site.path("full.json.d")).unwrap();
+    for command in ["volume level.obj level.obj", "build road.geojson --slope 1:2 -o m.obj", "diff level.obj level.obj"] {
+        for report in ["full", "full.json"] {
+            std::fs::rename(site.path("full.json.d"), site.path("full.json")).unwrap();
+            let run = site.run(&format!("{command} --report {report}"));
+            std::fs::rename(site.path("full.json"), site.path("full.json.d")).unwrap();
+            assert_eq!((run.code, run.stdout.as_str()), (4, ""), "{command} {report}: {}", run.stderr);
+        }
     }
 }
 

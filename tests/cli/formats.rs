@@ -374,7 +374,7 @@ fn meshes_beside_do_not_cost_digits() {
     assert_eq!(fs::read(site.path("a.stl")).unwrap(), fs::read(site.path("b.stl")).unwrap());
     // All meshes that are about an origin have one.
     site.run(&format!("{build} -o c.stl --finished f.glb")).done();
-    assert_eq!(origin(&site, "c.stl"), origin(&site, "f.glb"));
+    assert_eq!(origin(&site, "c.stl.origin.json"), origin(&site, "f.glb.origin.json"));
     // The note is of the single-precision file, not of the ground that reaches further.
     let far = site.read("ground.obj") + "v 741000 5203000 600\nv 741000 5204000 600\nv 740000 5203500 600\nf -3 -2 -1\n";
     fs::write(site.path("far.obj"), far).unwrap();
