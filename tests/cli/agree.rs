@@ -57,7 +57,10 @@ fn reference_systems_that_differ_are_told() {
     let (a, b) = (format!("# crs: EPSG:25832\n{LEVEL}"), format!("# crs: EPSG:31467\n{LEVEL}"));
     fs::write(site.path("a.obj"), a).unwrap();
     fs::write(site.path("b.obj"), b).unwrap();
-    says(&site.run("volume a.obj b.obj"), "warning[crs-differ]: the design is in the reference system `EPSG:25832`, the existing");
+    says(
+        &site.run("volume a.obj b.obj"),
+        "warning[crs-differ]: the design is in the reference system `EPSG:25832`, the existing",
+    );
     says(&site.run("diff a.obj b.obj"), "warning[crs-differ]: the first is in the reference system `EPSG:25832`, the second in");
     assert!(!site.run("volume a.obj a.obj").stderr.contains("crs-differ"));
 }
@@ -89,7 +92,8 @@ fn names_of_reference_systems_go_with_their_coordinates() {
 fn complete_in_words() {
     let site = level();
     let complete = |arguments: &str| {
-        let run = site.run(&format!("build {arguments} --terrain level.obj --slope 1:1 --report r.json --report r.html -o m.obj"));
+        let run =
+            site.run(&format!("build {arguments} --terrain level.obj --slope 1:1 --report r.json --report r.html -o m.obj"));
         let text = run.done();
         let line = text.lines().find(|line| line.starts_with("  complete")).unwrap().trim_start_matches("  complete").trim();
         let page = site.read("r.html");
@@ -119,7 +123,8 @@ fn complete_in_words() {
 #[test]
 fn warnings_and_notes_are_told_apart() {
     let site = level();
-    site.run("build up.csv --terrain level.obj --slope 1:1 --height 1 --allow-open --report r.txt --report r.md -o m.obj -q").done();
+    site.run("build up.csv --terrain level.obj --slope 1:1 --height 1 --allow-open --report r.txt --report r.md -o m.obj -q")
+        .done();
     for (name, marks) in [("r.txt", ["\nWarnings\n", "\nNotes\n"]), ("r.md", ["\n## Warnings\n", "\n## Notes\n"])] {
         let text = site.read(name);
         let [warnings, notes] = marks.map(|mark| text.find(mark).unwrap_or_else(|| panic!("{mark} in\n{text}")));

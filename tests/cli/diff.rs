@@ -206,7 +206,9 @@ fn what_cannot_be_compared() {
         let name = option.split(' ').next().unwrap();
         site.run(&format!("diff a.json b.json {option}")).refused(
             1,
-            &format!("error: `{name}` is for surfaces, and these are reports\n  --> a.json\n  --> b.json\n   = help: leave it out"),
+            &format!(
+                "error: `{name}` is for surfaces, and these are reports\n  --> a.json\n  --> b.json\n   = help: leave it out"
+            ),
         );
     }
     let run = site.run("diff ground.obj far.obj");

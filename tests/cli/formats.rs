@@ -368,7 +368,10 @@ fn lost_digits_are_told() {
 #[test]
 fn meshes_beside_do_not_cost_digits() {
     let site = site();
-    let build = "build hill_road.geojson --width 7 --terrain ground.obj --slope 1:1.5 --quiet";
+    // Ground that reaches 100 000 further to the west.
+    let far = site.read("ground.obj") + "v 541000 5203000 600\nv 541010 5203000 600\nv 541000 5203010 600\nf -3 -2 -1\n";
+    fs::write(site.path("far.obj"), far).unwrap();
+    let build = "build hill_road.geojson --width 7 --terrain far.obj --slope 1:1.5 --quiet";
     site.run(&format!("{build} -o a.stl")).done();
     site.run(&format!("{build} -o b.stl --finished f.ply")).done();
     assert_eq!(fs::read(site.path("a.stl")).unwrap(), fs::read(site.path("b.stl")).unwrap());
@@ -376,9 +379,7 @@ fn meshes_beside_do_not_cost_digits() {
     site.run(&format!("{build} -o c.stl --finished f.glb")).done();
     assert_eq!(origin(&site, "c.stl.origin.json"), origin(&site, "f.glb.origin.json"));
     // The note is of the single-precision file, not of the ground that reaches further.
-    let far = site.read("ground.obj") + "v 741000 5203000 600\nv 741000 5204000 600\nv 740000 5203500 600\nf -3 -2 -1\n";
-    fs::write(site.path("far.obj"), far).unwrap();
-    let build = build.replace("ground.obj", "far.obj").replace(" --quiet", "");
+    let build = build.replace(" --quiet", "");
     for outputs in ["-o a.stl", "-o a.stl --finished f.ply"] {
         let run = site.run(&format!("{build} {outputs} --local-origin=641000,5203000,0"));
         run.done();

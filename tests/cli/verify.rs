@@ -264,7 +264,8 @@ fn outputs_from_another_platform() {
     // A mesh that was changed, and its hash with it.
     let other = site.read("m.obj").replacen("v 5", "v 6", 1);
     fs::write(site.path("m.obj"), &other).unwrap();
-    let hash: String = <sha2::Sha256 as sha2::Digest>::digest(other.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
+    let hash: String =
+        <sha2::Sha256 as sha2::Digest>::digest(other.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
     tamper(&site, |report| {
         let outputs = report["result"]["outputs"].as_array_mut().unwrap();
         let mesh = outputs.iter_mut().find(|output| output["path"] == "m.obj").unwrap();
