@@ -16,6 +16,7 @@ mod on_ground;
 mod rasters;
 mod room;
 pub mod sample;
+mod systems;
 mod units;
 pub mod verify;
 pub mod volume;

@@ -42,7 +42,7 @@ pub(super) struct BatchArgs {
     #[arg(long, conflicts_with = "keep_going", help_heading = help::RUNNING)]
     pub(super) fail_fast: bool,
 
-    /// Write the summary; .json or .txt, may be repeated [default: as text to standard output]
+    /// Write the summary; .json or .txt, may be repeated. As text to standard output as well, unless --quiet
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
 
@@ -72,12 +72,13 @@ pub(super) fn run(args: &BatchArgs) -> anyhow::Result<Code> {
     checks.finish(Some(()))?;
     let at_once = at_once.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
     let tasks: Vec<Task> = paths(args)?.iter().map(|path| task(path)).collect();
-    apart(&tasks, reports.iter().map(|(target, _)| target))?;
+    let mut inputs: Vec<PathBuf> = tasks.iter().map(|task| PathBuf::from(&task.label)).collect();
+    inputs.extend(args.list.clone());
+    apart(&tasks, Footprint { outputs: console::targets(&reports), inputs: inputs.clone() })?;
     let memory = running::start(&args.running)?;
     let all = console::targets(&reports);
     let screen = Screen::take(&mut reports, &all);
-    let jobs: Vec<PathBuf> = tasks.iter().map(|task| PathBuf::from(&task.label)).collect();
-    let outputs = Outputs::open(&console::targets(&reports), &jobs).map_err(Error::from)?;
+    let outputs = Outputs::open(&console::targets(&reports), &inputs).map_err(Error::from)?;
 
     let begun = Instant::now();
     let batch = Batch { at_once: at_once.min(tasks.len()), fail_fast: args.fail_fast };
@@ -165,11 +166,11 @@ fn task(path: &Path) -> Task {
     Task { label: path.display().to_string(), job }
 }
 
-/// Refuses jobs that get in each other's way.
-fn apart<'a>(tasks: &[Task], summary: impl Iterator<Item = &'a Target>) -> Result<(), UsageErrors> {
+/// Refuses jobs that get in each other's way, or in that of the batch, which writes the summary and reads job files and list.
+fn apart(tasks: &[Task], batch: Footprint) -> Result<(), UsageErrors> {
     let footprint = |task: &Task| task.job.as_ref().map(|(job, _)| job.footprint()).unwrap_or_default();
     let mut footprints: Vec<Footprint> = tasks.iter().map(footprint).collect();
-    footprints.push(Footprint { outputs: summary.cloned().collect(), inputs: Vec::new() });
+    footprints.push(batch);
     let name = |index: usize| tasks.get(index).map_or("the summary", |task| &task.label);
     let message = match first_clash(&footprints) {
         None => return Ok(()),
@@ -179,6 +180,11 @@ fn apart<'a>(tasks: &[Task], summary: impl Iterator<Item = &'a Target>) -> Resul
             first.1,
             name(second.0),
             second.1
+        ),
+        Some(Clash::Input { writer, reader }) if reader.0 == tasks.len() => format!(
+            "a job writes a job file, or the list of them\n  --> {}: writes {}\n   = help: give the output a name of its own",
+            name(writer.0),
+            writer.1
         ),
         Some(Clash::Input { writer, reader }) => format!(
             "a job writes what another reads\n  --> {}: writes {}\n  --> {}: reads {}\n   \
@@ -222,7 +228,13 @@ fn done(label: &str, built: &Built, seconds: f64) -> JobRow {
         result: JobResult::Done,
         code: Some(Code::Done as u8),
         outputs: built.written.iter().map(ToString::to_string).collect(),
-        volumes: volumes.map(|v| JobVolumes { cut: v.cut, fill: v.fill, net: v.net, unit: (*unit).to_owned() }),
+        volumes: volumes.map(|v| JobVolumes {
+            cut: v.cut,
+            fill: v.fill,
+            net: v.net,
+            complete: v.complete,
+            unit: (*unit).to_owned(),
+        }),
         warnings: built.report.warnings.clone(),
         error: None,
         seconds,

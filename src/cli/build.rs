@@ -97,7 +97,7 @@ pub(super) struct BuildArgs {
     /// Side of the cells of rasters; heights are those of the mesh at their centres
     #[arg(long, value_name = "C", allow_negative_numbers = true, help_heading = help::OUTPUT)]
     pub(super) cell: Option<String>,
-    /// Write the report; .json, .txt, .md or .html, may be repeated [default: as text to standard output]
+    /// Write the report; .json, .txt, .md or .html, may be repeated. As text to standard output as well, unless --quiet
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
     /// Write slope stakes for every --stations and side: hinge, catch point, distances, slope; .csv, may be repeated

@@ -37,10 +37,10 @@ pub(super) struct CheckArgs {
     #[arg(short, long, value_name = "S", allow_hyphen_values = true, help_heading = help::CHECKS)]
     pub(super) slope: Option<String>,
     /// Triangles within D degrees are on the slope
-    #[arg(long, value_name = "D", default_value = "0.1", allow_negative_numbers = true, help_heading = help::CHECKS)]
+    #[arg(long, value_name = "D", default_value = "0.1", requires = "slope", allow_negative_numbers = true, help_heading = help::CHECKS)]
     pub(super) tolerance_deg: String,
     /// Share of the area in percent that may be off the slope
-    #[arg(long, value_name = "P", default_value = "0", allow_negative_numbers = true, help_heading = help::CHECKS)]
+    #[arg(long, value_name = "P", default_value = "0", requires = "slope", allow_negative_numbers = true, help_heading = help::CHECKS)]
     pub(super) max_off: String,
     /// Ask the slope of this group of the mesh only; may be repeated
     #[arg(long, value_name = "NAME", requires = "slope", help_heading = help::CHECKS)]
@@ -52,7 +52,7 @@ pub(super) struct CheckArgs {
     /// Places told of each kind of finding
     #[arg(long, value_name = "N", default_value = "3", allow_negative_numbers = true, help_heading = help::OUTPUT)]
     pub(super) places: String,
-    /// Write the report; .json, .txt, .md or .html, may be repeated [default: as text to standard output]
+    /// Write the report; .json, .txt, .md or .html, may be repeated. As text to standard output as well, unless --quiet
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
 

@@ -42,11 +42,12 @@ pub(super) struct DiffArgs {
     /// Exit with 5 if greatest depths, or heights of surfaces, differ by more
     #[arg(long, value_name = "H", allow_negative_numbers = true, help_heading = help::CHECKS)]
     pub(super) max_height: Option<String>,
-    /// Exit with 5 if anything differs but times, paths and the version of the program; heights of surfaces by more than 0.000001
+    /// Exit with 5 if anything differs but times, paths, options, hashes of results, messages and the version of the
+    /// program; heights of surfaces by more than 0.000001
     #[arg(long, help_heading = help::CHECKS)]
     pub(super) exact: bool,
 
-    /// Write the differences; .json or .txt, may be repeated [default: as text to standard output]
+    /// Write the differences; .json or .txt, may be repeated. As text to standard output as well, unless --quiet
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
 

@@ -104,7 +104,7 @@ mod tests {
     #[test]
     fn failures_have_their_codes() {
         assert_eq!(code(ReadError::StdinFormat), Code::Usage);
-        assert_eq!(code(ReadError::UnknownFormat { label: "a".into() }), Code::Usage);
+        assert_eq!(code(ReadError::UnknownFormat { label: "a".into(), help: "b" }), Code::Usage);
         assert_eq!(code(ReadError::Open { label: "a".into(), cause: std::io::ErrorKind::NotFound.into() }), Code::Input);
         assert_eq!(code(ReadError::Records(Defects::default())), Code::Input);
         assert_eq!(code(Defects::default()), Code::Work);

@@ -5,7 +5,7 @@ use super::console;
 use super::exit_code::Code;
 use super::help;
 use super::job_file;
-use super::running::{Run, Running};
+use super::running::{self, Run, Running};
 use super::usage::{Checks, UsageErrors};
 use crate::pipeline;
 use crate::read::{Pick, ReadOptions};
@@ -34,7 +34,7 @@ pub(super) struct InfoArgs {
     #[arg(long, help_heading = help::CHECKS)]
     pub(super) strict: bool,
 
-    /// Write what is found; .json or .txt, may be repeated [default: as text to standard output]
+    /// Write what is found; .json or .txt, may be repeated. As text to standard output as well, unless --quiet
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
 
@@ -68,7 +68,9 @@ pub(super) fn run(args: &InfoArgs) -> anyhow::Result<Code> {
 fn job(path: &Path) -> anyhow::Result<InfoReport> {
     let bytes = job_file::read_short(path)?;
     let checked = job_file::load(path).and_then(|(args, file)| {
-        let job = build::job(&args).map_err(|errors| UsageErrors::one(file.locate(&errors.to_string())))?;
+        let locate = |errors: UsageErrors| UsageErrors::one(file.locate(&errors.to_string()));
+        let job = build::job(&args).map_err(locate)?;
+        running::asked(&args.running).map_err(locate)?;
         Ok((job, file))
     });
     let (settings, defects) = match checked {

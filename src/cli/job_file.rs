@@ -202,7 +202,8 @@ impl JobFile {
         self.options().filter(counts).flat_map(Entry::words).map(|(words, _)| words).collect()
     }
 
-    /// Puts in what is no option: the line, and the folder of the mesh that is written by default.
+    /// Puts in what is no option: the line, and the folder of the mesh that is written by default. Takes out the slopes that what was
+    /// typed in stands in the place of.
     fn complete(&self, args: &mut BuildArgs) -> Result<(), UsageErrors> {
         let Some(input) = self.entries.iter().find(|entry| entry.key == INPUT).and_then(|entry| entry.values.first()) else {
             return Err(UsageErrors::one(format!(
@@ -213,6 +214,10 @@ impl JobFile {
         args.input.input = PathBuf::from(&input.word);
         if args.output.is_empty() {
             args.output.push(self.folder.join(build::default_output(&args.input.input)).into_os_string());
+        }
+        let typed = |id: &str| self.given.iter().any(|given| given == id);
+        for name in args.slope.give_way(args.terrain.is_some(), typed) {
+            args.options.remove(name);
         }
         let shown = |word: &OsString| word.to_string_lossy().into_owned();
         args.options.insert(INPUT.to_owned(), vec![shown(&input.word)]);

@@ -97,13 +97,57 @@ impl FormatArg {
     }
 }
 
+impl SlopeArgs {
+    /// Which way the surface goes.
+    fn direction(&self, on_ground: bool) -> DirectionArg {
+        self.direction.unwrap_or(if on_ground { DirectionArg::Auto } else { DirectionArg::Down })
+    }
+
+    /// The slopes that are given and have no surface: of a sheet that is not built, or `--slope` where all sheets have their own.
+    fn idle(&self, on_ground: bool) -> Vec<&'static str> {
+        let direction = self.direction(on_ground);
+        let [falls, rises] = [direction != DirectionArg::Up, direction != DirectionArg::Down];
+        let [cut, fill] = [self.cut_slope.is_some(), self.fill_slope.is_some()];
+        let idle = [
+            (SLOPE, self.slope.is_some() && (!falls || fill) && (!rises || cut)),
+            (CUT_SLOPE, cut && !rises),
+            (FILL_SLOPE, fill && !falls),
+        ];
+        idle.into_iter().filter(|(_, idle)| *idle).map(|(name, _)| name).collect()
+    }
+
+    /// Slopes from a job file give way to what was typed in: all to a `--slope`, and those without a surface to whatever changes what
+    /// surfaces there are, or gives them slopes. `typed`: whether an argument was typed in. Returns the options that are gone.
+    pub(super) fn give_way(&mut self, on_ground: bool, typed: impl Fn(&str) -> bool) -> Vec<&'static str> {
+        let changes = ["slope", "cut_slope", "fill_slope", "direction", "terrain"].into_iter().any(&typed);
+        let own = [CUT_SLOPE, FILL_SLOPE].into_iter().filter(|_| typed("slope"));
+        let mut gone: Vec<&'static str> = own.collect();
+        gone.extend(self.idle(on_ground).into_iter().filter(|_| changes));
+        let id = |name: &str| name.replace('-', "_");
+        gone.retain(|name| !typed(&id(name)));
+        for name in &gone {
+            match *name {
+                CUT_SLOPE => self.cut_slope = None,
+                FILL_SLOPE => self.fill_slope = None,
+                _ => self.slope = None,
+            }
+        }
+        gone
+    }
+}
+
+/// Names of the options that give slopes.
+const SLOPE: &str = "slope";
+const CUT_SLOPE: &str = "cut-slope";
+const FILL_SLOPE: &str = "fill-slope";
+
 impl Checks {
     /// The slopes, each with its sheet: one, or with existing ground both.
     pub(super) fn slopes(&mut self, args: &SlopeArgs, on_ground: bool) -> Vec<(Slope, Sheet)> {
         let slope = self.slope("--slope", args.slope.as_ref());
         let cut = self.slope("--cut-slope", args.cut_slope.as_ref());
         let fill = self.slope("--fill-slope", args.fill_slope.as_ref());
-        let direction = args.direction.unwrap_or(if on_ground { DirectionArg::Auto } else { DirectionArg::Down });
+        let direction = args.direction(on_ground);
         if direction == DirectionArg::Auto && !on_ground {
             self.refuse(
                 "the direction `auto` needs existing ground\n  --> --direction auto\n   \
@@ -119,8 +163,10 @@ impl Checks {
             DirectionArg::Auto => vec![falling, rising],
         };
         let mut slopes = Vec::new();
+        let mut known = direction != DirectionArg::Auto || on_ground;
         for (sheet, own, given, name, verb) in wanted {
             if !given && args.slope.is_none() {
+                known = false;
                 self.refuse(format!(
                     "no slope was given for a surface that {verb}\n  --> --slope\n   \
                      = help: give `--slope` or `{name}`, such as 1:1.5, 2H:1V, 1in2, 50% or 26.57deg"
@@ -128,7 +174,31 @@ impl Checks {
             }
             slopes.extend(own.or(slope).map(|slope| (slope, sheet)));
         }
+        if known {
+            self.idle_slopes(args, on_ground);
+        }
         slopes
+    }
+
+    /// Refuses slopes that no surface has.
+    fn idle_slopes(&mut self, args: &SlopeArgs, on_ground: bool) {
+        for name in args.idle(on_ground) {
+            let (text, what, help) = match name {
+                CUT_SLOPE => {
+                    (&args.cut_slope, "no surface rises that could have the slope", "choose `--direction up`, or leave it out")
+                }
+                FILL_SLOPE => {
+                    (&args.fill_slope, "no surface falls that could have the slope", "choose `--direction down`, or leave it out")
+                }
+                _ => (
+                    &args.slope,
+                    "no surface is left that could have the slope",
+                    "leave out `--slope`, or the slope in its place",
+                ),
+            };
+            let text = text.as_deref().unwrap_or_default();
+            self.refuse(format!("{what}\n  --> --{name} {text}\n   = help: {help}"));
+        }
     }
 
     /// The line; what depends on the tolerance has that of the default.

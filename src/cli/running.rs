@@ -2,7 +2,7 @@
 
 use super::console::{self, Console, Screen};
 use super::exit_code::Code;
-use super::usage::Checks;
+use super::usage::{Checks, UsageErrors};
 use super::{help, interrupt, memory};
 use crate::model::Memory;
 use crate::pipeline::Error;
@@ -71,12 +71,20 @@ pub(super) fn show(screen: Option<Screen>, text: impl FnOnce(&mut Vec<u8>) -> Re
     screen.map_or(Ok(()), |screen| screen.show(text)).map_err(failed)
 }
 
-/// What must stand before the work begins; tells how much memory it may take.
-pub(super) fn start(running: &Running) -> anyhow::Result<Memory> {
+/// The number of threads and the memory asked for.
+///
+/// # Errors
+/// What is wrong with them.
+pub(super) fn asked(running: &Running) -> Result<(Option<usize>, Option<Memory>), UsageErrors> {
     let mut checks = Checks::default();
     let threads = checks.whole("--threads", running.threads.as_ref(), "threads", 1..=MOST_THREADS);
-    let asked = running.max_memory.as_ref().and_then(|text| checks.take(memory::read(text)));
-    checks.finish(Some(()))?;
+    let memory = running.max_memory.as_ref().and_then(|text| checks.take(memory::read(text)));
+    checks.finish(Some((threads, memory)))
+}
+
+/// What must stand before the work begins; tells how much memory it may take.
+pub(super) fn start(running: &Running) -> anyhow::Result<Memory> {
+    let (threads, asked) = asked(running)?;
     let memory = memory::limit(asked);
     // Always a number of our own: what RAYON_NUM_THREADS says does not matter.
     let wanted = threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));

@@ -17,7 +17,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(super) struct SelftestArgs {
-    /// Write the table; .json or .txt, may be repeated [default: as text to standard output]
+    /// Write the table; .json or .txt, may be repeated. As text to standard output as well, unless --quiet
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
 

@@ -27,6 +27,9 @@ pub(super) struct VolumeArgs {
     /// Only inside the rings or polygons of this file: .geojson, .json, or a text file
     #[arg(long, value_name = "FILE", help_heading = help::SURFACE)]
     pub(super) within: Option<PathBuf>,
+    /// Columns of a text file of rings without a header, such as xy
+    #[arg(long, value_name = "ORDER", requires = "within", help_heading = help::SURFACE)]
+    pub(super) within_order: Option<String>,
     /// Columns of text files of points without a header, such as xyz or pnezd
     #[arg(long, value_name = "ORDER", help_heading = help::INPUT)]
     pub(super) csv_order: Option<String>,
@@ -44,7 +47,7 @@ pub(super) struct VolumeArgs {
     #[arg(long, value_name = "N", value_delimiter = ',', help_heading = help::INPUT)]
     pub(super) class: Vec<u8>,
 
-    /// Write the report; .json, .txt, .md or .html, may be repeated [default: as text to standard output]
+    /// Write the report; .json, .txt, .md or .html, may be repeated. As text to standard output as well, unless --quiet
     #[arg(long, value_name = "FILE", help_heading = help::OUTPUT)]
     pub(super) report: Vec<OsString>,
 
@@ -81,6 +84,7 @@ pub(super) fn job(args: &VolumeArgs) -> Result<VolumeJob, UsageErrors> {
     let csv_order = checks.order("--csv-order", args.csv_order.as_ref());
     let reports = checks.reports(&args.report, args.running.quiet);
     let within = args.within.clone();
+    let within_order = checks.order("--within-order", args.within_order.as_ref());
     let run = Some(RunRecord::new("volume", args.options.clone()));
     let unit = checks.unit(args.units.as_ref());
     // A surface that is brought to a level is the first one given, and the existing one.
@@ -95,5 +99,5 @@ pub(super) fn job(args: &VolumeArgs) -> Result<VolumeJob, UsageErrors> {
         ..Pick::default()
     };
     let picks = [pick(&args.surface, paths[0]), pick(existing, paths[1].or(paths[0]))];
-    checks.finish(against.map(|against| VolumeJob { against, csv_order, picks, unit, within, reports, run }))
+    checks.finish(against.map(|against| VolumeJob { against, csv_order, picks, unit, within, within_order, reports, run }))
 }

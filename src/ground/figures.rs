@@ -221,6 +221,8 @@ fn met(found: &Found) -> Vec<([u32; 2], Part)> {
 
 fn daylight(found: &Found) -> Daylight {
     let met = met(found);
+    // No further off the ground than this, an end has met it.
+    let tolerance = found.designs.iter().map(|design| design.tolerance).fold(f64::INFINITY, f64::min);
     let length = |e: &[u32; 2]| {
         let [p, q] = e.map(|v| found.nodes.places[v as usize].truncate());
         p.distance(q)
@@ -236,6 +238,7 @@ fn daylight(found: &Found) -> Daylight {
             .works
             .open
             .iter()
+            .filter(|o| o.height > tolerance)
             .map(|o| o.points[0].truncate().distance(o.points[1].truncate()))
             .collect::<Sum>()
             .value(),

@@ -21,6 +21,28 @@ pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     if short == "-0" { "0".to_owned() } else { short.to_owned() }
 }
 
+/// A number with so many decimals, no sign before nought.
+pub(crate) fn plain(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let nought = !text.bytes().any(|b| b.is_ascii_alphabetic() || (b'1'..=b'9').contains(&b));
+    match text.strip_prefix('-') {
+        Some(text) if nought => text.to_owned(),
+        _ => text,
+    }
+}
+
+/// The same with a true minus sign, as in drawings and on pages.
+pub(crate) fn typeset(value: f64, decimals: usize) -> String {
+    plain(value, decimals).replace('-', "−")
+}
+
+/// A share in percent, with the digits it was typed with.
+pub(crate) fn in_percent(share: f64) -> f64 {
+    /// Digits that a share is typed with.
+    const DIGITS: f64 = 1e10;
+    (100.0 * share * DIGITS).round() / DIGITS
+}
+
 /// `1 vertex`, `2 vertices`.
 pub(crate) fn counted(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
@@ -29,6 +51,25 @@ pub(crate) fn counted(count: usize, one: &str, many: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// 0.07 is 0.07000000000000000666…; 100 times it is 7.000000000000001 in doubles.
+    #[test]
+    fn percent_has_the_digits_it_was_typed_with() {
+        for (share, percent) in [(0.07, "7"), (0.29, "29"), (0.005, "0.5"), (-0.14, "-14"), (1e-9, "0.0000001")] {
+            assert_eq!(in_percent(share).to_string(), percent);
+        }
+    }
+
+    #[test]
+    fn nought_has_no_sign() {
+        for (value, decimals, text) in
+            [(-0.004, 2, "0.00"), (-0.0, 0, "0"), (-0.005_1, 2, "-0.01"), (-1200.0, 1, "-1200.0"), (7.0, 3, "7.000")]
+        {
+            assert_eq!(plain(value, decimals), text);
+            assert_eq!(typeset(value, decimals), text.replace('-', "−"));
+        }
+        assert_eq!((plain(f64::NEG_INFINITY, 2).as_str(), plain(f64::NAN, 2).as_str()), ("-inf", "NaN"));
+    }
 
     #[test]
     fn no_digit_that_says_nothing() {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// Notes on the result itself rather than on how the input was read.
-const WARNINGS: [&str; 14] = [
+const WARNINGS: [&str; 19] = [
     "buried",
     "line-beyond-end",
     "ground-single-precision",
@@ -14,6 +14,11 @@ const WARNINGS: [&str; 14] = [
     "design-uncovered",
     "platform-uncovered",
     "line-uncovered",
+    "open-ends",
+    "walls",
+    "level-missed",
+    "crs-differ",
+    "origin-stale",
     "meshes-swapped",
     "lies-double",
     "single-precision",

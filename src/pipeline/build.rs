@@ -5,11 +5,11 @@ mod contents;
 pub(super) use contents::targets;
 
 use super::error::NoStation;
-use super::heads::{LocalOrigin, Names, coarse, has_colours, heights_over, local_origin};
+use super::heads::{LocalOrigin, Names, coarse, has_colours, heights_over, local_origin, stale_origins};
 use super::watch::{CHECKING, Observer, PREPARING, READING, READING_GROUND, Stopwatch, WRITING};
 use super::{
     BuriedError, Desk, Error, Given, GroundInput, LineInput, Rasters, Wishes, check_steepness, desk, figures, on_ground, rasters,
-    read_line, room,
+    read_line, room, systems,
 };
 use crate::ground::{Pieces, Stations, Tallied, axes};
 use crate::kernel::frame::Frame;
@@ -131,8 +131,7 @@ pub fn build_at(desk: Desk<'_>, job: &BuildJob, observer: &dyn Observer) -> Resu
     let names = Names::of(job);
     let earthworks = report.volumes.as_ref().filter(|_| job.ground.is_some());
     let earthworks = earthworks.map(|v| Earthworks { ground: &names.ground, cut: v.cut, fill: v.fill });
-    // Of the line, else of the ground.
-    let crs = report.inputs.iter().find_map(|input| input.crs.clone());
+    let reference = systems::reference(&source, ground.as_ref(), job.input.unit, unit);
     let over_ground = |tin: &Tin| survey.as_ref().filter(|_| has_colours(job)).and_then(|s| heights_over(tin, &s.terrain));
     let made = Made {
         job,
@@ -141,7 +140,7 @@ pub fn build_at(desk: Desk<'_>, job: &BuildJob, observer: &dyn Observer) -> Resu
         scene: Scene {
             title: &source.label,
             unit,
-            crs: crs.as_deref(),
+            crs: reference.crs,
             line: &line,
             design: &design,
             lines: &lines,
@@ -156,7 +155,7 @@ pub fn build_at(desk: Desk<'_>, job: &BuildJob, observer: &dyn Observer) -> Resu
         finished: finished.as_ref(),
         finished_depths: finished.as_ref().and_then(over_ground),
         finished_raster,
-        reference: rasters::reference(&source, ground.as_ref(), job.input.unit, unit),
+        reference,
         stakes: &stakes,
     };
     if !job.plots.is_empty() || job.reports.iter().any(|(_, format)| format.draws()) {
@@ -187,6 +186,10 @@ pub fn build_at(desk: Desk<'_>, job: &BuildJob, observer: &dyn Observer) -> Resu
         made.put(&mut outputs, index, &report)?;
     }
     desk.commit(outputs)?;
+    if matches!(desk, Desk::Disk) {
+        // What lies about on the disk is no part of the result.
+        stale_origins(job).for_each(|note| observer.note(&note));
+    }
     stamp(&mut report, &watch);
     let written = targets.into_iter().filter(|target| !target.is_stream()).collect();
     Ok(Built { report, written })

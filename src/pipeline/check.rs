@@ -3,7 +3,9 @@
 use super::watch::{CHECKING, Observer, READING, Stopwatch, WRITING};
 use super::{Error, desk, figures, room};
 use crate::mesh::quality::{self, Bound, Kind, Mesh, Options};
+use crate::model::digits::in_percent;
 use crate::model::{Defect, Defects, Note, Part, Slope};
+use crate::read::ReadError;
 use crate::read::terrain::{RawFaces, RawMesh, read_mesh};
 use crate::read::{InputFormat, Pick};
 use crate::report::{CheckReport, Checked, ReportFormat, Warning};
@@ -125,7 +127,10 @@ fn split(vertices: &[glam::DVec3], corners: &[u32], ends: &[usize]) -> (Vec<[u32
 }
 
 /// The bound for the groups of a mesh.
-fn bound(wish: &SlopeWish, raw: &RawMesh) -> Result<Bound, Defects> {
+///
+/// # Errors
+/// That the file has no part of a name asked for: a name in an input, as that of a layer or surface is.
+fn bound(wish: &SlopeWish, raw: &RawMesh) -> Result<Bound, ReadError> {
     let of = |names: &[&str]| (0..).zip(&raw.names).filter(|(_, name)| names.contains(&name.as_str())).map(|(i, _)| i).collect();
     let groups: Vec<u32> = if wish.parts.is_empty() {
         of(&[Part::FillSlope.name(), Part::CutSlope.name()])
@@ -143,7 +148,7 @@ fn bound(wish: &SlopeWish, raw: &RawMesh) -> Result<Bound, Defects> {
                 },
             });
         }
-        defects.into_result()?;
+        defects.into_result().map_err(ReadError::Records)?;
         of(&wish.parts.iter().map(String::as_str).collect::<Vec<_>>())
     };
     let groups = (!groups.is_empty()).then_some(groups);
@@ -183,7 +188,7 @@ impl NotPassed {
             figures.push(if bound.within.triangles == 0 && bound.off.triangles == 0 {
                 "there is no triangle the slope could be asked of".to_owned()
             } else {
-                let (share, allowed) = (100.0 * bound.off.share, 100.0 * bound.max_off);
+                let (share, allowed) = (100.0 * bound.off.share, in_percent(bound.max_off));
                 format!("{} triangles are off the slope, {share:.3} % of the area against {allowed} %", bound.off.triangles)
             });
         }

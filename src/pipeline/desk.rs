@@ -57,7 +57,7 @@ impl Desk<'_> {
         let Some(bytes) = self.elsewhere(path)? else { return read::read_line(path, options) };
         let label = path.display().to_string();
         let format = options.format.or_else(|| InputFormat::from_path(path));
-        let format = format.ok_or_else(|| ReadError::UnknownFormat { label: label.clone() })?;
+        let format = format.ok_or_else(|| ReadError::unknown_format(label.clone()))?;
         read::parse_line(&label, &bytes, &ReadOptions { format: Some(format), ..options.clone() })
     }
 
@@ -105,8 +105,15 @@ impl Desk<'_> {
     }
 }
 
-/// Writes the same report in all its formats, and makes the files appear. What goes down streams is written last, standard output
-/// at the very end: files can still be taken back. Returns the files, in the order of `reports`.
+/// The order in which outputs are written. Files first, because they can still be taken back; standard output last; of each kind
+/// reports last, because they tell how long the rest took, those in JSON behind the others, because they tell of them.
+pub(super) fn in_order(targets: &[Target], is_report: impl Fn(usize) -> bool, is_json: impl Fn(usize) -> bool) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..targets.len()).collect();
+    order.sort_by_key(|&i| (targets[i] == Target::Stdout, targets[i].is_stream(), is_report(i), is_json(i)));
+    order
+}
+
+/// Writes the same report in all its formats, [`in_order`], and makes the files appear. Returns the files, in the order of `reports`.
 ///
 /// # Errors
 /// As [`Outputs::write`] and [`Outputs::commit`], as an error of the job.
@@ -115,9 +122,8 @@ pub fn write_reports(
     reports: &[(Target, ReportFormat)],
     encode: impl Fn(ReportFormat, &mut dyn Write) -> Result<(), EncodeError>,
 ) -> Result<Vec<Target>, Error> {
-    let mut order: Vec<usize> = (0..reports.len()).collect();
-    order.sort_by_key(|&index| (reports[index].0 == Target::Stdout, reports[index].0.is_stream()));
-    for index in order {
+    let targets: Vec<Target> = reports.iter().map(|(target, _)| target.clone()).collect();
+    for index in in_order(&targets, |_| true, |index| reports[index].1 == ReportFormat::Json) {
         outputs.write(index, |out| encode(reports[index].1, out))?;
     }
     outputs.commit()?;
@@ -144,4 +150,18 @@ pub(super) fn files(outputs: &Outputs, targets: &[Target], is_json: impl Fn(usiz
         Some(OutputFile { path: target.to_string(), bytes: digest.bytes, sha256: digest.sha256.clone() })
     };
     targets.iter().enumerate().filter_map(file).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_taken_back_is_written_last() {
+        let file = |name: &str| Target::File(name.into());
+        let targets = [Target::Stdout, file("r.json"), file("/dev/null"), file("r.txt"), file("m.obj")];
+        let is_report = |i: usize| i != 2 && i != 4;
+        let expected = if cfg!(unix) { [4, 3, 1, 2, 0] } else { [2, 4, 3, 1, 0] };
+        assert_eq!(in_order(&targets, is_report, |i| i == 1), expected);
+    }
 }

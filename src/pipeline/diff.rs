@@ -1,14 +1,15 @@
 //! What differs between two reports, or between two surfaces.
 
 use super::watch::{Named, Observer, Stopwatch, WRITING};
-use super::{Error, desk, figures, read_ground, room};
-use crate::model::message::placed;
+use super::{Error, desk, figures, read_ground, room, systems};
+use crate::model::digits::in_percent;
+use crate::model::message::{placed, printable};
 use crate::overlay::{self, AREA_ROUNDING, Between, Depth, OverlayError, SAME_HEIGHT};
 use crate::read::terrain::TerrainOptions;
 use crate::read::{Document, InputFormat, Source, read_document};
 use crate::report::between::Spot;
 use crate::report::diff::{BoundRow, DIFF_SCHEMA, DiffReport, Step, SurfaceChange, compare, render_diff};
-use crate::report::{Input, ReportFormat, Tool, Warning};
+use crate::report::{Input, ReportFormat, SCHEMA, Tool, Warning};
 use crate::surface::Watch;
 use crate::write::{Outputs, Target};
 use serde_json::Value;
@@ -85,7 +86,7 @@ impl Beyond {
     pub fn of(report: &DiffReport) -> Option<Self> {
         let figure = |row: &BoundRow| match row.bound {
             "exact" => format!("{} figures or words differ", row.found),
-            _ if row.share => format!("{}: {:.4} % against {} %", row.on, 100.0 * row.found, 100.0 * row.most),
+            _ if row.share => format!("{}: {:.4} % against {} %", row.on, 100.0 * row.found, in_percent(row.most)),
             _ => format!("{}: {} against {}", row.on, row.found, row.most),
         };
         let figures = report.bounds.iter().filter(|row| !row.passed).map(figure).collect();
@@ -115,8 +116,14 @@ pub fn diff(job: &DiffJob, observer: &dyn Observer) -> Result<Differed, Error> {
     let targets: Vec<Target> = job.reports.iter().map(|(target, _)| target.clone()).collect();
     let outputs = Outputs::open(&targets, &[&job.first, &job.second])?;
     let documents = (read_document(&job.first)?, read_document(&job.second)?);
+    for document in [&documents.0, &documents.1].into_iter().flatten() {
+        check_schema(document)?;
+    }
     let mut report = match documents {
-        (Some(first), Some(second)) => reports(&first, &second, &job.bounds, &watch)?,
+        (Some(first), Some(second)) => {
+            no_choice(job)?;
+            reports(&first, &second, &job.bounds, &watch)?
+        }
         (None, None) => surfaces(job, &watch)?,
         (first, _) => {
             let (report, other) = if first.is_some() { (&job.first, &job.second) } else { (&job.second, &job.first) };
@@ -135,6 +142,31 @@ pub fn diff(job: &DiffJob, observer: &dyn Observer) -> Result<Differed, Error> {
     let text = || render_diff(&report);
     let written = desk::write_reports(outputs, &job.reports, |format, out| format.write_plain(out, &report, text))?;
     Ok(Differed { report, written })
+}
+
+/// Refuses reports of other commands: what of them says how a run went, and what is a result, is not known here.
+fn check_schema(document: &Document) -> Result<(), DiffError> {
+    if document.schema == SCHEMA {
+        return Ok(());
+    }
+    let figures = format!("its schema is `{}`, not `{SCHEMA}`", printable(&document.schema));
+    let help = "give two reports that `slopegen build` or `volume` wrote";
+    Err(DiffError(format!(
+        "a report of this kind cannot be compared\n  --> {}\n   = {figures}\n   = help: {help}",
+        document.label
+    )))
+}
+
+/// Refuses options of surfaces beside reports: they would change nothing.
+fn no_choice(job: &DiffJob) -> Result<(), DiffError> {
+    let TerrainOptions { csv_order, pick, unit, .. } = &job.options;
+    let given = [("--csv-order", csv_order.is_some()), ("--surface", pick.surface.is_some()), ("--units", unit.is_some())];
+    let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
+    Err(DiffError(format!(
+        "`{option}` is for surfaces, and these are reports\n  --> {}\n  --> {}\n   = help: leave it out",
+        job.first.display(),
+        job.second.display()
+    )))
 }
 
 fn empty(inputs: Vec<Input>, unit: String) -> DiffReport {
@@ -233,16 +265,22 @@ fn surfaces(job: &DiffJob, watch: &Stopwatch<'_>) -> Result<DiffReport, Error> {
     // A surface is meant where there are several: not of meshes beside LandXML.
     let holds = |path: &Path| InputFormat::from_path(path).is_none_or(|format| format == InputFormat::LandXml);
     let chosen = [&job.first, &job.second].into_iter().any(|path| holds(path));
+    let no_order = ![&job.first, &job.second].into_iter().any(|path| InputFormat::may_have_order(path));
     let read = |path: &Path, unit, name| {
         let mut options = job.options.clone();
         options.pick.surface = options.pick.surface.filter(|_| holds(path) || !chosen);
-        read_ground(path, &options, unit, &Named { watch, name })
+        options.csv_order = options.csv_order.filter(|_| no_order || InputFormat::may_have_order(path));
+        read_ground(path, &options, unit, &Named { watch, name }).map_err(|error| match error {
+            Error::Read(error) => error.without_options(&["--terrain-layer", "--class"]).into(),
+            other => other,
+        })
     };
     let asked = job.options.unit;
     let first = read(&job.first, asked, "first")?;
     watch.holds(room::of_ground(&first.0));
     let second = read(&job.second, asked.or(first.1.unit), "second")?;
     let unit = asked.or(first.1.unit).or(second.1.unit).unwrap_or_default();
+    systems::compare(watch, [("first", &first.1), ("second", &second.1)]);
     watch.holds(room::of_ground(&first.0) + room::of_ground(&second.0));
     room::for_overlay(first.0.triangles.len() + second.0.triangles.len(), &second.1.label, &watch.memory())?;
     watch.stage("compare");

@@ -3,30 +3,48 @@
 use super::BuildJob;
 use crate::ground::depths;
 use crate::model::{Note, Part, Terrain, Tin};
-use crate::write::{MeshFormat, ROUNDING, origin};
+use crate::write::{MeshFormat, ROUNDING, Target, origin};
 use glam::DVec3;
 use std::path::Path;
 
 /// Which point the coordinates of meshes for viewers are counted from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LocalOrigin {
-    /// [`origin::around`] all meshes of the run.
+    /// [`origin::around`] all meshes of the run that are written about one.
     Auto,
     /// This one, in world coordinates.
     At(DVec3),
 }
 
-/// The origin of all meshes of a run that are about one.
+/// The origin of all meshes of a run that are about one: of those alone, so that none is coarser for what is written beside it.
 pub(super) fn local_origin(job: &BuildJob, design: &Tin, finished: Option<&Tin>) -> DVec3 {
+    let is_about = |meshes: &[(Target, MeshFormat)]| meshes.iter().any(|(_, format)| is_local(job, *format));
     match job.local_origin {
         Some(LocalOrigin::At(point)) => point,
-        _ => origin::around(std::iter::once(design).chain(finished)),
+        _ => {
+            let design = Some(design).filter(|_| is_about(&job.meshes));
+            origin::around(design.into_iter().chain(finished.filter(|_| is_about(&job.finished))))
+        }
     }
 }
 
 /// Whether a mesh of this format is about a local origin.
 pub(super) fn is_local(job: &BuildJob, format: MeshFormat) -> bool {
     format.is_single() || job.local_origin.is_some() && format.takes_origin()
+}
+
+/// Meshes in world coordinates beside which there is a file that tells an origin, left by another run: it does not hold for them.
+pub(super) fn stale_origins(job: &BuildJob) -> impl Iterator<Item = Note> {
+    let world = job.meshes.iter().chain(&job.finished).filter(|(_, format)| format.takes_origin() && !is_local(job, *format));
+    let beside = world.filter_map(|(target, _)| match target {
+        Target::File(path) => Some(origin::sidecar(path)).filter(|sidecar| sidecar.is_file()),
+        Target::Stdout => None,
+    });
+    beside.map(|sidecar| {
+        let message =
+            format!("`{}` is of an earlier run: the mesh beside it is in world coordinates now; delete it", sidecar.display());
+        Note::new("origin-stale", message)
+    })
 }
 
 /// Whether a mesh is coloured by its height over ground.
@@ -74,11 +92,14 @@ impl Names {
 /// Errors of coordinates that are told, in the length unit: a millimetre, if that is the metre.
 const TOLD: f64 = 0.001;
 
-/// What single precision does to the coordinates of meshes, where it does too much.
-pub(super) fn coarse(job: &BuildJob, design: &Tin, finished: Option<&Tin>, local: DVec3) -> Option<Note> {
-    let (target, _) = job.meshes.iter().chain(&job.finished).find(|(_, format)| format.is_single())?;
-    let points = std::iter::once(design).chain(finished).flat_map(|tin| (0..tin.vertices.len()).map(|i| tin.world(i)));
-    let furthest = points.map(|p| (p - local).abs().max_element()).fold(0.0, f64::max);
+/// What single precision does to the coordinates of meshes, where it does too much: of the one it does most to.
+pub(super) fn coarse<'a>(job: &'a BuildJob, design: &Tin, finished: Option<&Tin>, local: DVec3) -> Option<Note> {
+    let single =
+        |meshes: &'a [(Target, MeshFormat)]| meshes.iter().find(|(_, format)| format.is_single()).map(|(target, _)| target);
+    let furthest = |tin: &Tin| (0..tin.vertices.len()).map(|i| (tin.world(i) - local).abs().max_element()).fold(0.0, f64::max);
+    let design = single(&job.meshes).map(|target| (target, furthest(design)));
+    let finished = single(&job.finished).zip(finished.map(furthest));
+    let (target, furthest) = design.into_iter().chain(finished).max_by(|a, b| a.1.total_cmp(&b.1))?;
     // The step between neighbouring numbers is the same from one power of two to the next.
     let error = furthest.log2().floor().exp2() * ROUNDING;
     (error > TOLD).then(|| {

@@ -2,7 +2,7 @@
 
 use super::build::{BuildJob, Product, Survey, missed_levels};
 use super::watch::Stopwatch;
-use super::{Desk, Error, Wishes, check_steepness, figures, ground, room};
+use super::{Desk, Error, Wishes, check_steepness, figures, ground, room, systems};
 use crate::ground::{Options, Site};
 use crate::model::{Design, Extent, LengthUnit, Line, Sheet, Side, Terrain};
 use crate::read::Source;
@@ -40,6 +40,7 @@ pub(super) fn build(
             other => other,
         })?;
     watch.holds(room::of_ground(&terrain));
+    systems::compare(watch, [("line", source), ("ground", &ground_source)]);
     terrain::check_overlap(&terrain, &ground_source.label, line, &source.label)?;
     for wishes in &job.wishes {
         check_steepness(line, source, wishes.slope)?;

@@ -2,9 +2,8 @@
 
 use super::{Error, MOST_NODES, room};
 use crate::mesh::raster;
-use crate::model::{Defect, Defects, LengthUnit, Memory, Tin};
-use crate::read::{CoordinateKind, Source};
-use crate::write::{Anchor, GridLayout, RasterFormat, Reference, Target};
+use crate::model::{Defect, Defects, Memory, Tin};
+use crate::write::{Anchor, GridLayout, RasterFormat, Target};
 use glam::DVec2;
 
 /// Rasters to be written.
@@ -64,19 +63,4 @@ fn refused(code: &'static str, what: &str, label: &str, figures: String, help: &
         help: help.to_owned(),
     });
     defects
-}
-
-/// What a raster in `unit` may say of its coordinates: the system of the line, else of the ground, where coordinates still are
-/// what it says, and a unit where a file or the command line declared one.
-pub(super) fn reference<'a>(
-    line: &'a Source,
-    ground: Option<&'a Source>,
-    asked: Option<LengthUnit>,
-    unit: LengthUnit,
-) -> Reference<'a> {
-    let mut sources = std::iter::once(line).chain(ground);
-    let declared = asked.is_some() || sources.clone().any(|source| source.unit.is_some());
-    let kept = |source: &Source| source.kind != CoordinateKind::Degrees && source.unit.is_none_or(|own| own == unit);
-    let crs = sources.find_map(|source| source.crs.as_deref().filter(|_| kept(source)));
-    Reference { crs, unit: declared.then_some(unit) }
 }

@@ -1,7 +1,7 @@
 //! Exact heights of the sheet of the given line, at points or on a grid.
 
 use super::watch::{Observer, Stopwatch, WRITING};
-use super::{Desk, Error, Given, LineInput, check_steepness, rasters, read_line, room};
+use super::{Desk, Error, Given, LineInput, check_steepness, rasters, read_line, room, systems};
 use crate::model::{Defect, Defects, Line, Sheet, Slope};
 use crate::read::{RawPoints, ReadOptions};
 use crate::sheet::{Grid, Heights};
@@ -126,7 +126,7 @@ pub fn sample_at(desk: Desk<'_>, job: &SampleJob, observer: &dyn Observer) -> Re
             watch.stage_of(WRITING);
             let Grid { xll: x, yll: y, cell, ncols: columns, nrows: rows } = grid;
             let layout = GridLayout { columns, rows, x, y, anchor: Anchor::Center, cell };
-            let reference = rasters::reference(&source, None, job.input.unit, unit);
+            let reference = systems::reference(&source, None, job.input.unit, unit);
             outputs.write(0, |out| format.write(out, &layout, &heights, &reference))?;
             heights.len()
         }

@@ -2,7 +2,7 @@
 
 use super::ground::read_ground_at;
 use super::watch::{CHECKING, Named, Observer, Stopwatch, WRITING};
-use super::{Desk, Error, desk, figures, room, units};
+use super::{Desk, Error, desk, figures, room, systems, units};
 use crate::kernel::range::range;
 use crate::mesh::inside::inside;
 use crate::mesh::volume::MeshAreas;
@@ -10,7 +10,7 @@ use crate::model::message::placed;
 use crate::model::{Chain, Defect, Defects, LengthUnit, Note, Role, Terrain};
 use crate::overlay::{self, Between, OverlayError, Surface};
 use crate::read::terrain::TerrainOptions;
-use crate::read::{ColumnOrder, Pick, ReadOptions, Source};
+use crate::read::{ColumnOrder, InputFormat, Pick, ReadOptions, Source};
 use crate::report::between::{BetweenDepths, BetweenReference, BetweenReport, BetweenTiming, BetweenVolumes, MeshFigures};
 use crate::report::{
     Balance, Detail, Input, METHOD, METHOD_TEXT, ReportFormat, ResultFigures, RunRecord, SCHEMA, SIGN_RULE, Tool, Warning,
@@ -43,6 +43,8 @@ pub struct VolumeJob {
     pub unit: Option<LengthUnit>,
     /// A file of rings; only what lies inside counts.
     pub within: Option<PathBuf>,
+    /// Columns of the file of rings, if it is text without a header.
+    pub within_order: Option<ColumnOrder>,
     /// Where reports go.
     pub reports: Vec<(Target, ReportFormat)>,
     /// What was asked for, for reports in JSON.
@@ -150,7 +152,7 @@ pub fn volume_at(desk: Desk<'_>, job: &VolumeJob, observer: &dyn Observer) -> Re
     let mut outputs = desk.open(&targets, &job.inputs(), record)?;
 
     let Surfaces { design, existing, unit } = read(desk, job, &watch)?;
-    let area = job.within.as_ref().map(|path| rings(desk, path, unit, &watch)).transpose()?;
+    let area = job.within.as_ref().map(|path| rings(desk, path, job.within_order.as_ref(), unit, &watch)).transpose()?;
 
     watch.stage_of(VOLUMES);
     let within = area.as_ref().map(|(area, _)| area);
@@ -161,6 +163,8 @@ pub fn volume_at(desk: Desk<'_>, job: &VolumeJob, observer: &dyn Observer) -> Re
         (Against::Existing { .. }, None) => Err(OverlayError::Empty(Surface::Design)),
     };
     let sources = || design.iter().map(|d| &d.1).chain([&existing.1]);
+    let surfaces = design.iter().map(|d| ("design", &d.1)).chain([("existing surface", &existing.1)]);
+    systems::compare(&watch, surfaces.chain(area.iter().map(|(_, source)| ("file of rings", source))));
     let found = found.map_err(|cause| ComparisonError { labels: sources().map(|s| s.label.clone()).collect(), cause })?;
     notes(&found).iter().for_each(|note| Stopwatch::note(&watch, note));
 
@@ -192,11 +196,8 @@ pub fn volume_at(desk: Desk<'_>, job: &VolumeJob, observer: &dyn Observer) -> Re
         report.run = job.run.clone();
         report.result = Some(ResultFigures::of(None, None, &report).map_err(desk::no_record)?);
     }
-    // Reports in JSON last: they tell of the others.
     let is_json = |index: usize| job.reports[index].1 == ReportFormat::Json;
-    let mut order: Vec<usize> = (0..targets.len()).collect();
-    order.sort_by_key(|&index| is_json(index));
-    for index in order {
+    for index in desk::in_order(&targets, |_| true, is_json) {
         if let (true, Some(result)) = (is_json(index), &mut report.result) {
             result.outputs = desk::files(&outputs, &targets, is_json);
         }
@@ -221,10 +222,15 @@ struct Surfaces {
 fn read(desk: Desk<'_>, job: &VolumeJob, watch: &Stopwatch<'_>) -> Result<Surfaces, Error> {
     let (design, existing) = job.against.paths();
     let [of_design, of_existing] = &job.picks;
+    // The order is meant for the files that may have one.
+    let no_order = !design.into_iter().chain([existing]).any(|path| InputFormat::may_have_order(path));
     let read = |path: &Path, pick: &Pick, unit, surface: Surface| {
-        let options =
-            TerrainOptions { csv_order: job.csv_order.clone(), pick: pick.clone(), unit: job.unit, ..TerrainOptions::default() };
-        read_ground_at(desk, path, &options, unit, &Named { watch, name: surface.name() })
+        let csv_order = job.csv_order.clone().filter(|_| no_order || InputFormat::may_have_order(path));
+        let options = TerrainOptions { csv_order, pick: pick.clone(), unit: job.unit, ..TerrainOptions::default() };
+        read_ground_at(desk, path, &options, unit, &Named { watch, name: surface.name() }).map_err(|error| match error {
+            Error::Read(error) => error.without_options(&["--terrain-layer"]).into(),
+            other => other,
+        })
     };
     let design = design.map(|path| read(path, of_design, job.unit, Surface::Design)).transpose()?;
     watch.holds(design.as_ref().map_or(0, |(ground, _)| room::of_ground(ground)));
@@ -322,9 +328,19 @@ fn warnings(notes: &[Note], found: &Between) -> Vec<Warning> {
 }
 
 /// The area inside the rings of a file. Elevations do not matter.
-fn rings(desk: Desk<'_>, path: &Path, unit: LengthUnit, watch: &Stopwatch<'_>) -> Result<(Terrain, Source), Error> {
+fn rings(
+    desk: Desk<'_>,
+    path: &Path,
+    order: Option<&ColumnOrder>,
+    unit: LengthUnit,
+    watch: &Stopwatch<'_>,
+) -> Result<(Terrain, Source), Error> {
     watch.stage_of(CHECKING);
-    let mut raw = desk.line(path, &ReadOptions { unit: Some(unit), memory: watch.memory(), ..ReadOptions::default() })?;
+    let (csv_order, memory) = (order.cloned(), watch.memory());
+    let options = ReadOptions { unit: Some(unit), csv_order, flat: true, memory, ..ReadOptions::default() };
+    let mut raw = desk.line(path, &options).map_err(|error| {
+        error.with_option("--csv-order", "--within-order").without_options(&["--feature", "--layer", "--input-format"])
+    })?;
     if let Some(note) = units::convert_line(&mut raw, unit) {
         watch.note(&note);
     }

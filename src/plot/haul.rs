@@ -41,6 +41,13 @@ pub(super) fn curves(scene: &Scene<'_>, axis: usize) -> Option<(Vec<DVec2>, Opti
     Some((with_begin(net.collect()), compacted.collect::<Option<Vec<_>>>().map(with_begin)))
 }
 
+/// What a curve ends with, with one decimal, and in a word what that means; nothing for what rounds to nought.
+fn rest(end: f64) -> Option<(String, &'static str)> {
+    let amount = figure(end.abs(), 1);
+    let word = if end > 0.0 { "left over" } else { "lacking" };
+    amount.contains(|c| ('1'..='9').contains(&c)).then_some((amount, word))
+}
+
 /// Where a curve comes back to nought between its ends.
 fn balanced(curve: &[DVec2]) -> Vec<f64> {
     let mut found = Vec::new();
@@ -89,7 +96,7 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     let mut blocks = Vec::new();
     if compacted.is_some() {
         blocks.push(Block::symbol(Sample::Line("ln design"), "running net, cut as compacted"));
-        blocks.push(Block::symbol(Sample::Line("ln ground"), "running net, as in the ground"));
+        blocks.push(Block::symbol(Sample::Line("ln ground"), "running net, as measured"));
     } else {
         blocks.push(Block::symbol(Sample::Line("ln design"), "running net (cut − fill)"));
     }
@@ -103,10 +110,9 @@ pub(super) fn drawn(scene: &Scene<'_>, axis: usize, style: &Style) -> Option<Dra
     let height = below + legend.height() + 10.0;
 
     let end = main.last().map_or(0.0, |p| p.y);
-    let balance = match end {
-        e if e > 0.0 => format!("ends with {} {unit}³ left over", figure(e, 1)),
-        e if e < 0.0 => format!("ends with {} {unit}³ lacking", figure(-e, 1)),
-        _ => "ends balanced".to_owned(),
+    let balance = match rest(end) {
+        Some((amount, word)) => format!("ends with {amount} {unit}³ {word}"),
+        None => "ends balanced".to_owned(),
     };
     let title = format!("Mass haul: {}", course.axis.name);
     let mut svg =

@@ -28,7 +28,7 @@ pub use plan::plan;
 pub use profile::profile;
 pub use scale::round_step;
 pub use scene::{OnGround, Scene};
-pub use sections::sections;
+pub use sections::{MOST_SECTIONS, sections};
 pub use style::{LEAST_WIDTH, MOST_WIDTH, Style, css};
 
 #[cfg(test)]

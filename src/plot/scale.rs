@@ -1,5 +1,7 @@
 //! Round numbers: steps of scales, and figures with as many digits as their steps ask for.
 
+pub(super) use crate::model::digits::typeset as figure;
+
 /// The least of 1, 2, 5 × 10ⁿ that is not less than `least`; 1 for what is no positive number.
 pub fn round_step(least: f64) -> f64 {
     if !(least > 0.0 && least.is_finite()) {
@@ -39,13 +41,6 @@ pub(super) fn is_multiple(value: f64, step: f64) -> bool {
     const SLACK: f64 = 1e-6;
     let share = value / step;
     (share - share.round()).abs() < SLACK
-}
-
-/// A number with a true minus sign, and no sign for nought.
-pub(super) fn figure(value: f64, decimals: usize) -> String {
-    let text = format!("{:.decimals$}", value.abs());
-    let nought = text.chars().all(|c| c == '0' || c == '.');
-    if value < 0.0 && !nought { format!("−{text}") } else { text }
 }
 
 /// A number with its sign, plus too.

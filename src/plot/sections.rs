@@ -19,7 +19,7 @@ use crate::model::{Part, Tin, digits};
 use glam::{DVec2, DVec3};
 
 /// Most sections of one axis in one drawing; others are left out, which the last one tells.
-const MOST: usize = 60;
+pub const MOST_SECTIONS: usize = 60;
 
 const LEFT: f64 = 64.0;
 const RIGHT: f64 = 18.0;
@@ -155,9 +155,10 @@ pub(super) fn views(scene: &Scene<'_>, course: &Course, axis: usize, stations: &
 
 fn all(scene: &Scene<'_>, axis: usize, stations: &[f64], style: &Style) -> Vec<(f64, Drawn)> {
     let Some(course) = courses(scene).into_iter().nth(axis) else { return Vec::new() };
-    let shown = &stations[..stations.len().min(MOST)];
-    let left_out = stations.len() - shown.len();
-    let (scale, views) = views(scene, &course, axis, shown, style.width() - LEFT - RIGHT);
+    let mut shown: Vec<f64> = stations.iter().copied().filter(|s| (0.0..=course.axis.length).contains(s)).collect();
+    let left_out = shown.len().saturating_sub(MOST_SECTIONS);
+    shown.truncate(MOST_SECTIONS);
+    let (scale, views) = views(scene, &course, axis, &shown, style.width() - LEFT - RIGHT);
     let last = views.len();
     let draw = |(i, (station, view)): (usize, (f64, View))| {
         let note = (left_out > 0 && i + 1 == last).then(|| format!("{left_out} more stations are not drawn"));

@@ -14,14 +14,15 @@ use parse::{Table, clip};
 use rows::{is_blank, is_comment};
 use std::collections::HashMap;
 
-/// The lines of a text file.
+/// The lines of a text file; `want_z`: whether they need elevations.
 pub(super) fn lines(
     text: &str,
     source: &mut Source,
     order: Option<&ColumnOrder>,
+    want_z: bool,
     notes: &mut Vec<Note>,
 ) -> Result<Vec<RawLine>, ReadError> {
-    let mut table = table(text, source, order, true, notes)?;
+    let mut table = table(text, source, order, want_z, notes)?;
     let count = table.records.len();
     if count > 1 && table.ids.len() == count {
         notes.push(Note::new(

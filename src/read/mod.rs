@@ -72,6 +72,11 @@ impl InputFormat {
         }
     }
 
+    /// Whether files of this name may have an order of columns or coordinates to be told.
+    pub fn may_have_order(path: &Path) -> bool {
+        Self::from_path(path).is_none_or(|format| matches!(format, Self::Csv | Self::LandXml))
+    }
+
     /// The format a file name stands for; `None` if its extension says nothing.
     pub fn from_path(path: &Path) -> Option<Self> {
         let extension = path.extension()?.to_str()?.to_ascii_lowercase();
@@ -216,6 +221,8 @@ pub struct ReadOptions {
     pub chord: f64,
     /// Unit that was asked for: that of files that should declare one and do not.
     pub unit: Option<LengthUnit>,
+    /// Elevations do not matter: text files need no column for them.
+    pub flat: bool,
     /// How much memory the run may take.
     pub memory: Memory,
 }
@@ -223,7 +230,15 @@ pub struct ReadOptions {
 impl Default for ReadOptions {
     /// Nothing known, everything taken, chords within [`DEFAULT_CHORD`].
     fn default() -> Self {
-        Self { format: None, csv_order: None, pick: Pick::default(), chord: DEFAULT_CHORD, unit: None, memory: Memory::default() }
+        Self {
+            format: None,
+            csv_order: None,
+            pick: Pick::default(),
+            chord: DEFAULT_CHORD,
+            unit: None,
+            flat: false,
+            memory: Memory::default(),
+        }
     }
 }
 
@@ -255,13 +270,15 @@ pub fn parse_line(label: &str, bytes: &[u8], options: &ReadOptions) -> Result<Ra
     let format = options.format.unwrap_or(InputFormat::GeoJson);
     // A surface, where the file is also ground, is no matter of its lines.
     Pick { surface: None, ..options.pick.clone() }.fits(label, format)?;
+    pick::order_fits(options.csv_order.as_ref(), label, format)?;
     room::for_content(label, format, bytes, &options.memory)?;
     let mut notes = Vec::new();
     let mut source = source(label, format, bytes);
     let mut lines = match format {
         InputFormat::GeoJson => geojson::lines(&decode::text(label, bytes, &mut notes)?, &mut source, &mut notes)?,
         InputFormat::Csv => {
-            csv::lines(&decode::text(label, bytes, &mut notes)?, &mut source, options.csv_order.as_ref(), &mut notes)?
+            let text = decode::text(label, bytes, &mut notes)?;
+            csv::lines(&text, &mut source, options.csv_order.as_ref(), !options.flat, &mut notes)?
         }
         InputFormat::LandXml => landxml::lines(bytes, &mut source, options, &mut notes)?,
         InputFormat::Dxf => dxf::lines(bytes, &mut source, options, &mut notes)?,
@@ -321,7 +338,7 @@ fn load(path: &Path, options: &ReadOptions) -> Result<(String, InputFormat, Vec<
     } else {
         let label = path.display().to_string();
         let format = options.format.or_else(|| InputFormat::from_path(path));
-        let format = format.ok_or_else(|| ReadError::UnknownFormat { label: label.clone() })?;
+        let format = format.ok_or_else(|| ReadError::unknown_format(label.clone()))?;
         let bytes = room::load(&label, path, &options.memory)?;
         Ok((label, format, bytes))
     }

@@ -1,7 +1,7 @@
 //! What is meant of a file that holds several things.
 
 use super::terrain::{clip, refuse};
-use super::{InputFormat, RawLine, RawShape, ReadError};
+use super::{ColumnOrder, InputFormat, RawLine, RawShape, ReadError};
 
 /// Classification of ground points in LAS files (ASPRS LAS 1.4, table 9).
 #[allow(dead_code, reason = "used with the feature `las`")]
@@ -18,6 +18,23 @@ pub struct Pick {
     pub surface: Option<String>,
     /// Classes of points of a cloud; empty: that of ground, 2.
     pub classes: Vec<u8>,
+}
+
+/// Refuses an order of columns for a file that has none: it would be taken to have been followed.
+///
+/// # Errors
+/// As it says; LandXML files have an order of coordinates.
+pub(super) fn order_fits(order: Option<&ColumnOrder>, label: &str, format: InputFormat) -> Result<(), ReadError> {
+    if order.is_none() || matches!(format, InputFormat::Csv | InputFormat::LandXml) {
+        return Ok(());
+    }
+    let figures = format!("its format is `{format}`");
+    Err(refuse(
+        "only text and LandXML files have an order of columns to be told",
+        label,
+        figures,
+        "leave out the order of columns",
+    ))
 }
 
 impl Pick {
@@ -71,7 +88,7 @@ impl Pick {
 
 #[cfg(test)]
 mod tests {
-    use super::Pick;
+    use super::{Pick, order_fits};
     use crate::read::{InputFormat, ReadOptions, parse_line};
 
     #[test]
@@ -90,6 +107,21 @@ mod tests {
         let options =
             ReadOptions { pick: Pick { layers: vec!["a".into()], ..Pick::default() }, ..ReadOptions::of(InputFormat::Csv) };
         assert!(parse_line("a", b"x,y,z\n0,0,1\n9,0,1\n", &options).is_err());
+    }
+
+    #[test]
+    fn an_order_needs_columns() {
+        let order = "xyz".parse().unwrap();
+        for (format, fits) in [
+            (InputFormat::Csv, true),
+            (InputFormat::LandXml, true),
+            (InputFormat::GeoJson, false),
+            (InputFormat::Obj, false),
+            (InputFormat::Dxf, false),
+        ] {
+            assert_eq!(order_fits(Some(&order), "a", format).is_ok(), fits, "{format}");
+            assert!(order_fits(None, "a", format).is_ok());
+        }
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use super::common::{Tool, Warning};
 use crate::kernel::sum::Sum;
+use crate::model::digits;
 use crate::model::message::printable;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -91,6 +92,8 @@ pub struct JobVolumes {
     pub fill: f64,
     /// `cut − fill`.
     pub net: f64,
+    /// Whether they are complete, as in the report of the job; of sums, whether all are.
+    pub complete: bool,
     /// Unit of length; volumes are in its cube.
     pub unit: String,
 }
@@ -116,7 +119,8 @@ fn total(jobs: &[JobRow]) -> Option<JobVolumes> {
         volumes.iter().for_each(|v| sum.add(of(v)));
         sum.value()
     };
-    same.then(|| JobVolumes { cut: sum(|v| v.cut), fill: sum(|v| v.fill), net: sum(|v| v.net), unit: unit.clone() })
+    let complete = volumes.iter().all(|v| v.complete);
+    same.then(|| JobVolumes { cut: sum(|v| v.cut), fill: sum(|v| v.fill), net: sum(|v| v.net), complete, unit: unit.clone() })
 }
 
 /// The summary as a table for people.
@@ -127,12 +131,16 @@ pub fn render_batch(report: &BatchReport) -> String {
     // Writing to a String cannot fail.
     let _ = writeln!(
         text,
-        "  {:width$}  {:7} {:>4} {:>14} {:>14} {:>14}  {:5} {:>9}",
-        "job", "result", "code", "cut", "fill", "net", "unit", "seconds"
+        "  {:width$}  {:7} {:>4} {:>14} {:>14} {:>14}  {:5} {:8} {:>9}",
+        "job", "result", "code", "cut", "fill", "net", "unit", "complete", "seconds"
     );
     let volumes = |v: Option<&JobVolumes>| match v {
-        Some(v) => format!("{:>14.2} {:>14.2} {:>14.2}  {:5}", v.cut, v.fill, v.net, format!("{}³", v.unit)),
-        None => format!("{:>14} {:>14} {:>14}  {:5}", "–", "–", "–", ""),
+        Some(v) => {
+            let [cut, fill, net] = [v.cut, v.fill, v.net].map(|volume| digits::plain(volume, 2));
+            let complete = if v.complete { "yes" } else { "NO" };
+            format!("{cut:>14} {fill:>14} {net:>14}  {:5} {complete:8}", format!("{}³", v.unit))
+        }
+        None => format!("{:>14} {:>14} {:>14}  {:5} {:8}", "–", "–", "–", "", ""),
     };
     for row in &report.jobs {
         let code = row.code.map_or_else(|| "–".to_owned(), |code| code.to_string());
@@ -169,7 +177,13 @@ mod tests {
             result,
             code: (result != JobResult::NotRun).then_some(if result == JobResult::Done { 0 } else { 3 }),
             outputs: Vec::new(),
-            volumes: volumes.map(|(cut, fill, unit)| JobVolumes { cut, fill, net: cut - fill, unit: unit.into() }),
+            volumes: volumes.map(|(cut, fill, unit)| JobVolumes {
+                cut,
+                fill,
+                net: cut - fill,
+                complete: cut != 1.5,
+                unit: unit.into(),
+            }),
             warnings: Vec::new(),
             error: None,
             seconds: 0.25,
@@ -182,6 +196,7 @@ mod tests {
         let both = [row("a", done, Some((100.0, 25.0, "m"))), row("b", done, Some((1.5, 2.0, "m"))), row("c", failed, None)];
         let sum = total(&both).unwrap();
         assert_eq!((sum.cut, sum.fill, sum.net), (101.5, 27.0, 74.5));
+        assert!(!sum.complete && total(&both[..1]).unwrap().complete);
         assert_eq!(total(&[both[0].clone(), row("d", done, Some((1.0, 1.0, "ft")))]), None);
         assert_eq!(total(&[both[0].clone(), row("d", done, None)]), None);
         assert_eq!(total(&both[2..]), None);
@@ -196,11 +211,11 @@ mod tests {
         ];
         let text = render_batch(&BatchReport { tool: Tool { name: "slopegen", version: "0" }, ..BatchReport::new(jobs, 3, 1.5) });
         let expected = "slopegen 0: 3 jobs\n\n\
-            \x20 job             result  code            cut           fill            net  unit    seconds\n\
-            \x20 site/long.toml  done       0         100.00          25.00          75.00  m³         0.25\n\
-            \x20 b               failed     3              –              –              –             0.25\n\
-            \x20 c               not run    –              –              –              –             0.25\n\
-            \x20 total                      3         100.00          25.00          75.00  m³         1.50\n\n\
+            \x20 job             result  code            cut           fill            net  unit  complete   seconds\n\
+            \x20 site/long.toml  done       0         100.00          25.00          75.00  m³    yes           0.25\n\
+            \x20 b               failed     3              –              –              –                      0.25\n\
+            \x20 c               not run    –              –              –              –                      0.25\n\
+            \x20 total                      3         100.00          25.00          75.00  m³    yes           1.50\n\n\
             1 done, 1 failed, 1 not run\n";
         assert_eq!(text, expected);
     }

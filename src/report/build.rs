@@ -74,6 +74,24 @@ pub struct Report {
     pub timing: Timing,
 }
 
+impl Report {
+    /// Whether the works are complete, and what that means here.
+    pub(super) fn completeness(&self) -> (bool, &'static str) {
+        let told = |code: &str| self.warnings.iter().any(|warning| warning.code == code);
+        let complete = self.volumes.as_ref().is_some_and(|volumes| volumes.complete);
+        let words = match (self.daylight, complete) {
+            (None, true) => "all slopes reach their end",
+            (None, false) => "the slopes do not reach their end everywhere",
+            (Some(_), false) if told("open-ends") => "some slopes end without meeting the ground",
+            (Some(_), false) => "there is no ground below a part of the works",
+            (Some(_), true) if told("walls") => "no slope stops short; where there is none stand upright walls",
+            (Some(daylight), true) if daylight.loops == 0 => "all slopes reach their end",
+            (Some(_), true) => "all slopes meet the ground",
+        };
+        (complete, words)
+    }
+}
+
 /// How exactly the surface was built.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct DesignFigures {

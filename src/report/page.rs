@@ -4,7 +4,8 @@
 mod markdown;
 mod plain;
 
-use super::{Input, Units};
+use super::{Input, Units, WarningKind};
+use crate::model::digits;
 use crate::model::message::printable;
 
 /// Width of the names before the figures in plain text.
@@ -156,17 +157,17 @@ impl Page {
     }
 
     pub(super) fn length(&mut self, name: &str, value: f64) {
-        self.figure(name, &format!("{value:.3}"), self.units.length);
+        self.figure(name, &digits::plain(value, 3), self.units.length);
     }
 
     pub(super) fn area(&mut self, name: &str, value: f64) {
         let unit = self.units.area.clone();
-        self.figure(name, &format!("{value:.2}"), &unit);
+        self.figure(name, &digits::plain(value, 2), &unit);
     }
 
     pub(super) fn volume(&mut self, name: &str, value: f64, remark: &str) {
         let unit = format!("{}{remark}", self.units.volume);
-        self.figure(name, &format!("{value:.2}"), &unit);
+        self.figure(name, &digits::plain(value, 2), &unit);
     }
 
     /// Label of the unit of volumes.
@@ -193,16 +194,18 @@ impl Page {
         }
     }
 
-    /// What the reader should know.
-    pub(super) fn warnings(&mut self, title: &str, warnings: &[super::Warning]) {
-        if warnings.is_empty() {
-            return;
-        }
-        self.section(title);
-        for warning in warnings {
-            let mut lines = warning.message.lines();
-            let first = lines.next().unwrap_or_default();
-            self.remark(&format!("{}: {first}", warning.code), lines.map(|line| line.trim().to_owned()).collect());
+    /// What the reader should know: of the result, and of how the input was read.
+    pub(super) fn warnings(&mut self, warnings: &[super::Warning]) {
+        for (title, kind) in [("Warnings", WarningKind::Warning), ("Notes", WarningKind::Note)] {
+            let mut first = true;
+            for warning in warnings.iter().filter(|warning| warning.kind == kind) {
+                if std::mem::take(&mut first) {
+                    self.section(title);
+                }
+                let mut lines = warning.message.lines();
+                let first = lines.next().unwrap_or_default();
+                self.remark(&format!("{}: {first}", warning.code), lines.map(|line| line.trim().to_owned()).collect());
+            }
         }
     }
 }

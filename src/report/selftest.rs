@@ -176,6 +176,7 @@ pub fn render_selftest(report: &SelftestReport) -> String {
     }
     let _ = match report.failed {
         0 if report.passed => writeln!(text, "\n{} figures: all passed", report.figures),
+        0 => writeln!(text, "\n{} figures: all passed; what FAILED is", report.figures),
         failed => writeln!(text, "\n{} figures: {failed} FAILED", report.figures),
     };
     for failure in report.failures() {
@@ -264,6 +265,17 @@ mod tests {
         crate::report::write_json(&mut json, &report).unwrap();
         let json = String::from_utf8(json).unwrap();
         compare(&json, include_str!("../../tests/golden/selftest.json"), "selftest.json");
+    }
+
+    /// Bytes may differ where no figure does.
+    #[test]
+    fn bytes_alone_can_fail() {
+        let mut report = testing::full();
+        report.cases.clear();
+        (report.failed, report.hashes[0].same) = (0, Some(false));
+        let text = render_selftest(&report);
+        assert!(text.contains("\n4 figures: all passed; what FAILED is\n  bytes of the exact cases: "), "{text}");
+        assert!(!text.contains("0 FAILED"), "{text}");
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! so that the columns are always the same.
 
 use super::{PadRow, Report, StationRow};
-use crate::write::EncodeError;
+use crate::write::{EncodeError, push_field, push_figure};
 use std::io::Write;
 
 /// Columns of the table of stations. The unit is that of lengths; areas are in its square, volumes in its cube.
@@ -45,26 +45,25 @@ pub const STATION_COLUMNS: [&str; 26] = [
 /// [`EncodeError::ReportNotFinite`] names a figure that is NaN or infinite; [`EncodeError::Io`] from the sink.
 pub fn write_station_table(out: &mut (impl Write + ?Sized), report: &Report) -> Result<(), EncodeError> {
     let unit = report.units.length;
-    let mut text = STATION_COLUMNS.join(",") + "\n";
+    let mut bytes = (STATION_COLUMNS.join(",") + "\n").into_bytes();
     let rows = report.stations.iter().flatten().map(|row| (row.chain.as_str(), figures(row)));
     for (number, (chain, figures)) in rows.chain(report.pads.iter().map(|pads| ("", pad(pads)))).enumerate() {
-        text += &quoted(chain);
-        text.push(',');
-        text += unit;
+        push_field(&mut bytes, chain);
+        bytes.push(b',');
+        bytes.extend_from_slice(unit.as_bytes());
         for (name, figure) in STATION_COLUMNS[2..].iter().zip(figures) {
-            text.push(',');
+            bytes.push(b',');
             match figure {
                 Some(figure) if !figure.is_finite() => {
                     return Err(EncodeError::ReportNotFinite(format!("stations[{number}].{name}")));
                 }
-                // Nought has no sign.
-                Some(figure) => text += &(figure + 0.0).to_string(),
+                Some(figure) => push_figure(&mut bytes, figure),
                 None => {}
             }
         }
-        text.push('\n');
+        bytes.push(b'\n');
     }
-    out.write_all(text.as_bytes())?;
+    out.write_all(&bytes)?;
     Ok(())
 }
 
@@ -89,12 +88,6 @@ fn pad(pads: &PadRow) -> Vec<Option<f64>> {
     figures.extend([pads.cut, pads.fill, pads.cut_area, pads.fill_area].map(Some));
     figures.resize(STATION_COLUMNS.len() - 2, None);
     figures
-}
-
-/// A field, in quotes where it needs them.
-fn quoted(text: &str) -> String {
-    let special = |c: char| matches!(c, ',' | '"' | '\r' | '\n') || c.is_whitespace() && text.trim().len() < text.len();
-    if text.contains(special) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
 #[cfg(test)]

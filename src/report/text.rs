@@ -3,9 +3,7 @@
 mod between;
 mod ground;
 
-pub(super) use between::ROUNDED;
 pub use between::{write_between, write_between_markdown};
-pub(super) use ground::in_percent;
 
 use super::page::{Column, Group, Page, Row};
 use super::{BuriedStretch, Certificate, ExtentKind, LineFigures, Report, SurfaceFigures, Volumes};
@@ -38,7 +36,8 @@ pub fn render(report: &Report) -> String {
 }
 
 fn page(report: &Report) -> Page {
-    let mut page = Page::new(&report.tool, "surface of constant slope", &report.units, true);
+    let about = if report.terrain.is_some() { "works of constant slope on existing ground" } else { "surface of constant slope" };
+    let mut page = Page::new(&report.tool, about, &report.units, true);
     page.section("Input");
     page.inputs(&report.inputs);
     line(&mut page, &report.line);
@@ -74,7 +73,7 @@ fn page(report: &Report) -> Page {
     page.small("  tolerance", &short(report.design.tolerance));
     ground::terrain(&mut page, report);
     if let Some(volumes) = &report.volumes {
-        self::volumes(&mut page, volumes);
+        self::volumes(&mut page, report, volumes);
         ground::volumes(&mut page, volumes);
     }
     if let Some(depths) = &report.depths {
@@ -86,7 +85,7 @@ fn page(report: &Report) -> Page {
     if let Some(stations) = &report.stations {
         ground::stations(&mut page, stations, report.pads, report.volumes.as_ref());
     }
-    page.warnings("Warnings", &report.warnings);
+    page.warnings(&report.warnings);
     page
 }
 
@@ -160,7 +159,7 @@ fn certificate(page: &mut Page, c: &Certificate) {
     page.small("height deviation", &short(c.height_max_deviation));
 }
 
-fn volumes(page: &mut Page, v: &Volumes) {
+fn volumes(page: &mut Page, report: &Report, v: &Volumes) {
     let against = match v.reference.elevation {
         Some(z) => format!("{} at elevation {z}", v.reference.kind),
         None if v.reference.kind == "terrain" => "existing ground".to_owned(),
@@ -169,9 +168,11 @@ fn volumes(page: &mut Page, v: &Volumes) {
     page.section(&format!("Volumes ({}, against the {against})", v.method));
     page.volume("cut", v.cut, "");
     page.volume("fill", v.fill, "");
-    page.volume("net (cut − fill)", v.net, &format!(" {}", v.balance.word()));
+    let (net, balance) = v.balance.shown(v.net);
+    page.volume("net (cut − fill)", net, &format!(" {}", balance.word()));
     page.volume("error at most", v.error_bound, "");
-    page.words("complete", if v.complete { "yes" } else { "NO, the slopes do not reach their end everywhere" });
+    let (whole, words) = report.completeness();
+    page.words("complete", &format!("{}, {words}", if whole { "yes" } else { "NO" }));
     page.words("method", v.method_text);
     page.words("sign", v.sign_rule);
 }
@@ -208,6 +209,25 @@ mod tests {
     #[test]
     fn a_full_report_on_ground_is_pinned() {
         compare(&render(&on_ground()), include_str!("../../tests/golden/report_ground.txt"), "report_ground.txt");
+    }
+
+    /// The running net is measured, not in bank: its last figure and the platforms without stations are the net.
+    #[test]
+    fn the_running_net_ends_at_the_net() {
+        let report = on_ground();
+        let last = report.stations.as_ref().unwrap().last().unwrap();
+        let (pads, volumes) = (report.pads.unwrap(), report.volumes.as_ref().unwrap());
+        assert!((last.net_cumulative + pads.cut - pads.fill - volumes.net).abs() < 1e-9);
+        let soil = volumes.bulking.unwrap();
+        assert!((soil.net_bank - volumes.net).abs() > 1.0, "in bank it is another figure");
+        let text = render(&report);
+        let row = text.lines().find(|line| line.trim_start().starts_with(&format!("{:.2}", last.from))).unwrap();
+        let heads = text.lines().find(|line| line.contains("as measured")).unwrap();
+        // The column below these words.
+        let end = heads.find("as measured").unwrap() + "as measured".len();
+        let figure = row[..end].split_whitespace().last().unwrap();
+        assert_eq!(figure, format!("{:.2}", last.net_cumulative));
+        assert!(!text.contains("in bank"), "{text}");
     }
 
     fn markdown(report: &Report) -> String {

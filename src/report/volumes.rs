@@ -8,11 +8,14 @@ pub const METHOD: &str = "prisms";
 
 /// The method in words.
 pub const METHOD_TEXT: &str =
-    "exact for the triangles: prisms over the common refinement of both surfaces, no cells and no sections";
+    "exact for the triangles: prisms over each, against another surface over the common refinement; no cells, no sections";
 
 /// What the sign of net says.
 pub const SIGN_RULE: &str =
     "net = cut − fill: positive is a surplus (soil is left over), negative a deficit (soil must be brought)";
+
+/// Volumes below this are printed as nought.
+const ROUNDED: f64 = 0.005;
 
 /// Mean depth of a volume; none over no area.
 pub(super) fn mean(volume: f64, area: f64) -> Option<f64> {
@@ -128,6 +131,11 @@ pub enum Balance {
 }
 
 impl Balance {
+    /// The net as it is printed, with two decimals, and the balance of what is printed: what rounds to nought is balanced.
+    pub(super) fn shown(self, net: f64) -> (f64, Self) {
+        if net.abs() < ROUNDED { (0.0, Self::Balanced) } else { (net, self) }
+    }
+
     /// Cut and fill that differ by less than this share of the larger one are equal: summation leaves no more.
     const SAME: f64 = 1e-9;
 

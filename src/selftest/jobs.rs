@@ -233,6 +233,7 @@ pub(super) fn volume(against: Against, within: Option<&str>) -> Task {
         csv_order: None,
         picks: [Pick::default(), Pick::default()],
         unit: None,
+        within_order: None,
         within: within.map(PathBuf::from),
         reports: vec![(file(REPORT), ReportFormat::Json)],
         run: None,

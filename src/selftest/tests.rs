@@ -37,6 +37,16 @@ fn a_wrong_figure_fails() {
     }
 }
 
+/// A refusal without words would pass for any error.
+#[test]
+fn refusals_have_words() {
+    for row in cases::all().iter().flat_map(|case| &case.rows) {
+        if let Expected::Refusal { words, .. } = row.expected {
+            assert!(words.len() >= 5, "{}", row.formula);
+        }
+    }
+}
+
 /// A job that is refused, and should not be; one that should be, and is not.
 #[test]
 fn refusals_that_are_wrong_fail() {

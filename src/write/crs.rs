@@ -18,18 +18,45 @@ pub(super) fn is_wkt(crs: &str) -> bool {
     upper.contains('[') && KEYWORDS.iter().any(|keyword| upper.starts_with(keyword))
 }
 
-/// The code of the EPSG register that a name holds, for formats that tell plan and heights apart: as [`epsg`], and of several
-/// codes, as in `EPSG:25832+7837`, the first, which is that of the plan.
+/// The code of the EPSG register that a name holds, for formats that tell plan and heights apart: that of the plan, as far as
+/// GeoTIFF has room for it.
 #[cfg(feature = "geotiff")]
 pub(super) fn plan_epsg(crs: &str) -> Option<u32> {
-    const SHORTEST_CODE: usize = 4;
     /// Codes that GeoTIFF has room for (OGC GeoTIFF 1.1, requirement class 10).
     const CODES: std::ops::RangeInclusive<u32> = 1024..=32766;
+    plan_code(crs).filter(|code| CODES.contains(code))
+}
+
+/// The code of the EPSG register that a name holds: as [`epsg`], and of several codes, as in `EPSG:25832+7837`, the first, which is
+/// that of the plan.
+fn plan_code(crs: &str) -> Option<u32> {
+    const SHORTEST_CODE: usize = 4;
     let upper = crs.to_ascii_uppercase();
     let (_, rest) = upper.split_once("EPSG")?;
     let figures = rest.split(|c: char| !c.is_ascii_digit() && !":/.".contains(c)).next()?;
     let code = figures.split(|c: char| !c.is_ascii_digit()).find(|digits| digits.len() >= SHORTEST_CODE)?;
-    code.parse().ok().filter(|code| CODES.contains(code))
+    code.parse().ok()
+}
+
+/// Name of a reference system as a file gives it.
+#[derive(Clone, Copy, Debug)]
+pub struct SystemName<'a>(pub &'a str);
+
+impl SystemName<'_> {
+    /// Whether two names are those of different systems: of two codes of the EPSG register, or without one of two names whose letters
+    /// and figures differ. A code and a name, and well-known text, cannot be compared, and do not contradict anything.
+    pub fn contradicts(self, other: Self) -> bool {
+        match (plan_code(self.0), plan_code(other.0)) {
+            (Some(a), Some(b)) => a != b,
+            (None, None) if !is_wkt(self.0) && !is_wkt(other.0) => self.bare() != other.bare(),
+            _ => false,
+        }
+    }
+
+    /// Its letters and figures, all small.
+    fn bare(self) -> String {
+        self.0.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+    }
 }
 
 #[cfg(test)]
@@ -49,6 +76,23 @@ mod tests {
         }
         for crs in ["", "EPSG:", "EPSG:25832+7837", "EPSG:25832;", "ESRI:102100", "UTM 32", "EPSG:abc"] {
             assert_eq!(epsg(crs), None, "{crs}");
+        }
+    }
+
+    #[test]
+    fn names_contradict_each_other() {
+        let contradict = |a: &str, b: &str| SystemName(a).contradicts(SystemName(b)) && SystemName(b).contradicts(SystemName(a));
+        for (a, b) in [("EPSG:25832", "EPSG:25833"), ("urn:ogc:def:crs:EPSG::25832", "EPSG:3857"), ("UTM 32", "UTM 33")] {
+            assert!(contradict(a, b), "{a} {b}");
+        }
+        for (a, b) in [
+            ("EPSG:25832", "urn:ogc:def:crs:EPSG::25832"),
+            ("EPSG:25832", "epsg:25832+7837"),
+            ("EPSG:25832", "ETRS89.UTM-32N"),
+            ("ETRS89 / UTM 32N", "etrs89/utm32n"),
+            ("UTM 32", "PROJCS[\"ETRS89 / UTM zone 32N\",GEOGCS[…]]"),
+        ] {
+            assert!(!contradict(a, b), "{a} {b}");
         }
     }
 

@@ -8,6 +8,7 @@ mod crs;
 mod digest;
 pub mod dxf;
 pub mod error;
+mod fields;
 #[cfg(feature = "geotiff")]
 pub mod geotiff;
 pub mod glb;
@@ -28,9 +29,11 @@ mod target;
 
 pub use atomic::{Delivery, Outputs, Target, discard_unfinished, discard_unfinished_within};
 pub use clash::{Clash, Footprint, first_clash};
+pub use crs::SystemName;
 pub use digest::Digest;
 pub use dxf::{write_dxf, write_dxf_lines};
 pub use error::{EncodeError, WriteError};
+pub use fields::{push_field, push_figure};
 #[cfg(feature = "geotiff")]
 pub use geotiff::write_geotiff;
 pub use glb::write_glb;

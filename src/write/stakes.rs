@@ -1,7 +1,7 @@
 //! Slope stakes as CSV.
 
 use super::EncodeError;
-use super::number::push_f64;
+use super::fields::{push_field, push_figure};
 use super::obj::flush_if_full;
 use crate::model::Part;
 use crate::setout::Stake;
@@ -25,7 +25,7 @@ pub fn write_stakes(out: &mut (impl Write + ?Sized), stakes: &[Stake]) -> Result
             match value {
                 Some(value) if !value.is_finite() => Err(EncodeError::NotFinite { what: "slope stake", index: i + 1, value }),
                 Some(value) => {
-                    push_f64(bytes, value);
+                    push_figure(bytes, value);
                     Ok(())
                 }
                 None => Ok(()),
@@ -62,17 +62,6 @@ pub fn write_stakes(out: &mut (impl Write + ?Sized), stakes: &[Stake]) -> Result
     }
     out.write_all(&bytes)?;
     Ok(())
-}
-
-/// Appends text, in quotes where it must be.
-fn push_field(bytes: &mut Vec<u8>, text: &str) {
-    if text.contains(['"', ',', '\n', '\r']) {
-        bytes.push(b'"');
-        bytes.extend_from_slice(text.replace('"', "\"\"").as_bytes());
-        bytes.push(b'"');
-    } else {
-        bytes.extend_from_slice(text.as_bytes());
-    }
 }
 
 #[cfg(test)]

@@ -165,6 +165,42 @@ fn jobs_that_get_in_each_others_way() {
     );
 }
 
+/// Neither the summary nor a job writes over the list or a job file; and what is not complete shows.
+#[test]
+fn lists_are_not_written_over() {
+    let site = site();
+    fs::write(site.path("l.txt"), "jobs/a.toml\n").unwrap();
+    let run = site.run("batch --list l.txt --report l.txt");
+    assert!(run.code == 2 && run.stdout.is_empty(), "{run:?}");
+    assert_eq!(site.read("l.txt"), "jobs/a.toml\n");
+    fs::write(site.path("jobs/a.toml"), "input = '../pad.geojson'\nslope = '1:2'\nreport = '../l.txt'\n").unwrap();
+    site.run("batch --list l.txt").refused(
+        2,
+        "error: a job writes a job file, or the list of them\n  --> jobs/a.toml: writes jobs/../l.txt\n   \
+         = help: give the output a name of its own",
+    );
+    assert_eq!(site.read("l.txt"), "jobs/a.toml\n");
+}
+
+/// Slopes that stop short of the ground are a warning, and their volumes not complete.
+#[test]
+fn what_is_not_complete_shows() {
+    let site = site();
+    fs::write(site.path("level.obj"), "v -20 -20 0\nv 20 -20 0\nv 20 20 0\nv -20 20 0\nf 1 2 3\nf 1 3 4\n").unwrap();
+    fs::write(site.path("up.csv"), "x,y,z\n-2,-2,2\n2,-2,2\n2,2,2\n-2,2,2\n-2,-2,2\n").unwrap();
+    let job = "input = 'up.csv'\nterrain = 'level.obj'\nslope = '1:1'\n";
+    fs::write(site.path("whole.toml"), job).unwrap();
+    fs::write(site.path("open.toml"), format!("{job}height = 1\nallow-open = true\noutput = 'o.obj'\n")).unwrap();
+    let run = site.run("batch whole.toml open.toml --report s.json --report -");
+    let rows: Vec<Vec<&str>> = run.done().lines().map(|line| line.split_whitespace().collect()).collect();
+    let complete = |job: &str| rows.iter().find(|row| row.first() == Some(&job)).map(|row| row[row.len() - 2]);
+    assert_eq!([complete("whole.toml"), complete("open.toml"), complete("total")], [Some("yes"), Some("NO"), Some("NO")]);
+    assert!(run.stderr.contains("warning[open-ends]: open.toml: slopes end above or below the ground"), "{}", run.stderr);
+    let summary: Value = serde_json::from_str(&site.read("s.json")).unwrap();
+    assert_eq!(summary["jobs"][0]["volumes"]["complete"], true);
+    assert_eq!((&summary["jobs"][1]["volumes"]["complete"], &summary["total"]["complete"]), (&false.into(), &false.into()));
+}
+
 #[test]
 fn wrong_usage() {
     let site = site();

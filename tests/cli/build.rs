@@ -1,6 +1,6 @@
 //! `slopegen build` where all is well.
 
-use super::Site;
+use super::{Site, on_ground};
 
 /// A mesh as OBJ: whether it has vertices and faces.
 fn is_mesh(text: &str) -> bool {
@@ -98,10 +98,29 @@ fn slopes_of_their_own_come_first() {
         site.run(&format!("build road.geojson {arguments} --height 2 -o m.obj --report r.json")).done();
         figure(&site.read("r.json"), key)
     };
-    assert_eq!(ratio("--slope 1:2 --fill-slope 1:4", "/slopes/fill/ratio"), 0.25);
-    assert_eq!(ratio("--slope 1:2 --cut-slope 1:4", "/slopes/fill/ratio"), 0.5);
-    assert_eq!(ratio("--slope 1:2 --cut-slope 1:4 --direction up", "/slopes/cut/ratio"), 0.25);
+    assert_eq!(ratio("--cut-slope 1:4 --direction up", "/slopes/cut/ratio"), 0.25);
     assert_eq!(ratio("--fill-slope 1:4", "/slopes/fill/ratio"), 0.25);
+}
+
+/// A slope that no surface has is refused, by `build` and by `sample`.
+#[test]
+fn slopes_without_a_surface_are_refused() {
+    let site = on_ground();
+    let rises = "error: no surface rises that could have the slope\n  --> --cut-slope 1:1\n   \
+                 = help: choose `--direction up`, or leave it out";
+    site.run("build road.geojson --slope 1:2 --cut-slope 1:1").refused(2, rises);
+    site.run("sample road.geojson --slope 1:2 --cut-slope 1:1 --at -").refused(2, rises);
+    site.run("build hill_road.geojson --terrain ground.obj --slope 1:2 --cut-slope 1:1 --direction down").refused(2, rises);
+    site.run("build road.geojson --slope 1:2 --fill-slope 1:1 --direction up").refused(
+        2,
+        "error: no surface falls that could have the slope\n  --> --fill-slope 1:1\n   \
+         = help: choose `--direction down`, or leave it out",
+    );
+    let left = "error: no surface is left that could have the slope\n  --> --slope 1:2\n   \
+                = help: leave out `--slope`, or the slope in its place";
+    site.run("build road.geojson --slope 1:2 --fill-slope 1:4").refused(2, left);
+    site.run("build hill_road.geojson --terrain ground.obj --slope 1:2 --cut-slope 1:1 --fill-slope 1:4").refused(2, left);
+    assert_eq!(site.new_files(), ["ground.obj", "hill_road.geojson"]);
 }
 
 #[test]

@@ -91,7 +91,7 @@ fn parts_to_ask_the_slope_of() {
     assert_eq!(passed("--slope 1:2 --part batter --part berm --max-off 47.3%", 5), true);
     assert_eq!(passed("--slope 1:2 --part batter --part berm --max-off 47.2", 5), false);
     site.run("check m.obj --slope 1:2 --part batte")
-        .refused(1, "error: the mesh has no part `batte`\n  --> m.obj\n   = help: its parts are `batter`, `berm`, `wall`");
+        .refused(3, "error: the mesh has no part `batte`\n  --> m.obj\n   = help: its parts are `batter`, `berm`, `wall`");
 }
 
 #[test]
@@ -108,6 +108,8 @@ fn refusals() {
         "check m.obj --gap 0",
         "check m.obj --places x",
         "check m.obj --part a",
+        "check m.obj --max-off 5%",
+        "check m.obj --tolerance-deg 0.5",
         "check m.obj --report m.obj",
         "check m.obj --report r.pdf",
     ] {

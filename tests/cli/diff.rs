@@ -193,6 +193,24 @@ fn what_cannot_be_compared() {
     fs::write(site.path("ground.obj"), GROUND).unwrap();
     let run = site.run("diff a.json ground.obj");
     assert!(run.code == 1 && run.stderr.starts_with("error: a report cannot be compared with something else\n"), "{run:?}");
+    // Reports of other commands; options of surfaces beside reports.
+    site.run("check ground.obj --report c.json -q").done();
+    for pair in ["c.json c.json", "a.json c.json"] {
+        site.run(&format!("diff {pair}")).refused(
+            1,
+            "error: a report of this kind cannot be compared\n  --> c.json\n   = its schema is `slopegen-check/1`, not \
+             `slopegen-report/1`\n   = help: give two reports that `slopegen build` or `volume` wrote",
+        );
+    }
+    for option in ["--units ft", "--surface X", "--csv-order xyz"] {
+        let name = option.split(' ').next().unwrap();
+        site.run(&format!("diff a.json b.json {option}")).refused(
+            1,
+            &format!(
+                "error: `{name}` is for surfaces, and these are reports\n  --> a.json\n  --> b.json\n   = help: leave it out"
+            ),
+        );
+    }
     let run = site.run("diff ground.obj far.obj");
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("--> ground.obj\n  --> far.obj\n   = second: x 5000.000 to 5020.000"), "{}", run.stderr);

@@ -364,6 +364,32 @@ fn lost_digits_are_told() {
     assert!(!run.stderr.contains("single-precision"), "{}", run.stderr);
 }
 
+/// What stands beside an STL file does not make it coarser: its origin is its own, and so are the figures of the note.
+#[test]
+fn meshes_beside_do_not_cost_digits() {
+    let site = site();
+    // Ground that reaches 100 000 further to the west.
+    let far = site.read("ground.obj") + "v 541000 5203000 600\nv 541010 5203000 600\nv 541000 5203010 600\nf -3 -2 -1\n";
+    fs::write(site.path("far.obj"), far).unwrap();
+    let build = "build hill_road.geojson --width 7 --terrain far.obj --slope 1:1.5 --quiet";
+    site.run(&format!("{build} -o a.stl")).done();
+    site.run(&format!("{build} -o b.stl --finished f.ply")).done();
+    assert_eq!(fs::read(site.path("a.stl")).unwrap(), fs::read(site.path("b.stl")).unwrap());
+    // All meshes that are about an origin have one.
+    site.run(&format!("{build} -o c.stl --finished f.glb")).done();
+    assert_eq!(origin(&site, "c.stl.origin.json"), origin(&site, "f.glb.origin.json"));
+    // The note is of the single-precision file, not of the ground that reaches further.
+    let build = build.replace(" --quiet", "");
+    for outputs in ["-o a.stl", "-o a.stl --finished f.ply"] {
+        let run = site.run(&format!("{build} {outputs} --local-origin=641000,5203000,0"));
+        run.done();
+        assert!(!run.stderr.contains("single-precision"), "{outputs}: {}", run.stderr);
+    }
+    let run = site.run(&format!("{build} -o a.stl --finished f.stl --local-origin=641000,5203000,0"));
+    // From 2¹⁶ to 2¹⁷ numbers of 24 bits are 2⁻⁷ apart.
+    assert!(run.stderr.contains("coordinates in `f.stl` are off by up to 0.0039"), "{}", run.stderr);
+}
+
 /// What the program writes it reads: the same surfaces and lines, bit for bit, with unit and reference system.
 #[test]
 fn surfaces_and_drawings_read_back() {

@@ -47,7 +47,7 @@ fn slope_stakes_agree_with_the_sections() {
     let outputs = ["--stations", "20", "--stakes", "stakes.csv", "--report", "road.json", "--level", "620,99"];
     let run = site.run_args(&[&job[..], &outputs[..]].concat(), "");
     run.done();
-    assert!(run.stderr.contains("note[level-missed]: there is no level curve at 99: "), "{}", run.stderr);
+    assert!(run.stderr.contains("warning[level-missed]: there is no level curve at 99: "), "{}", run.stderr);
     let report: serde_json::Value = serde_json::from_str(&site.read("road.json")).unwrap();
     assert_eq!(report["levels"], serde_json::json!([620.0]));
     let text = site.read("stakes.csv");
@@ -120,7 +120,7 @@ fn walls_are_told() {
     let run = site.run(job);
     run.done();
     // Round the pad, 4 · 4 long, as high as it stands.
-    assert!(run.stderr.contains("[walls]: the line stands off the ground"), "{}", run.stderr);
+    assert!(run.stderr.contains("warning[walls]: the line stands off the ground"), "{}", run.stderr);
     assert!(run.stderr.contains("on a length of 16.000: up to 2.000"), "{}", run.stderr);
     let refused = site.run(&format!("{job} --finished f.obj"));
     assert_eq!(refused.code, 1, "{}", refused.stderr);

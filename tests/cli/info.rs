@@ -136,6 +136,15 @@ fn job_files_and_reports() {
     fs::write(site.path("bad.toml"), "input = 'nothing.csv'\nslope = '1:1'\n").unwrap();
     let defects = used(&info(&site, "bad.toml"), "job")["defects"].clone();
     assert!(defects[0].as_str().unwrap().contains("--> nothing.csv\n  --> bad.toml, line 1, column 9\n"), "{defects}");
+    // What says how the program runs is looked at as well.
+    for (key, told) in [("threads = 0", "--threads 0"), ("max-memory = 'abc'", "--max-memory abc")] {
+        fs::write(site.path("run.toml"), format!("input = 'road.geojson'\nslope = '1:1.5'\n{key}\n")).unwrap();
+        let defects = used(&info(&site, "run.toml"), "job")["defects"].clone();
+        let place = format!("--> run.toml, line 3, column {}: {told}\n", key.find('=').unwrap() + 3);
+        assert!(defects[0].as_str().unwrap().contains(&place), "{defects}");
+        assert_eq!(site.run("info run.toml --strict --quiet").code, 5);
+        assert_eq!(site.run("build run.toml --quiet").code, 2);
+    }
     fs::write(site.path("bad.toml"), "inputt = 'a'\n").unwrap();
     assert_eq!(site.run("info bad.toml --strict --quiet").code, 5);
 }

@@ -67,6 +67,41 @@ fn options_win() {
     assert!(site.path("site/pit.obj").exists());
 }
 
+/// A slope that was typed in is that of both sheets; what the file says of them, and what has no surface any more, gives way.
+#[test]
+fn a_typed_slope_wins() {
+    let slopes = |job: &str, typed: &str| {
+        let site = site(job);
+        site.run(&format!("build site/job.toml {typed} --allow-open --report r.json --quiet")).done();
+        let report: serde_json::Value = serde_json::from_str(&site.read("r.json")).unwrap();
+        let one_in = |sheet: &str| report["slopes"][sheet]["one_in"].as_f64();
+        let options: Vec<String> = report["run"]["options"].as_object().unwrap().keys().cloned().collect();
+        (one_in("cut"), one_in("fill"), options.into_iter().filter(|key| key.ends_with("slope")).collect::<Vec<_>>())
+    };
+    let close = |found: (Option<f64>, Option<f64>, Vec<String>), cut: Option<f64>, fill: Option<f64>, options: &[&str]| {
+        let same = |a: Option<f64>, b: Option<f64>| match (a, b) {
+            (Some(a), Some(b)) => (a - b).abs() < 1e-12,
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        assert!(
+            same(found.0, cut) && same(found.1, fill) && found.2 == options,
+            "{found:?} against {cut:?} {fill:?} {options:?}"
+        );
+    };
+    close(slopes(JOB, "--slope 1:3"), Some(3.0), Some(3.0), &["slope"]);
+    close(slopes(JOB, "--slope 1:3 --cut-slope 1:2"), Some(2.0), Some(3.0), &["cut-slope", "slope"]);
+    close(slopes(JOB, "--direction down"), None, Some(1.5), &["fill-slope"]);
+    let both = "slope = '1:2'\ncut-slope = '1:1'\n";
+    let job = JOB.replace("cut-slope = '1:1'\nfill_slope = '1:1.5'\n", both);
+    close(slopes(&job, "--fill-slope 1:4"), Some(1.0), Some(4.0), &["cut-slope", "fill-slope"]);
+    close(slopes(&job, ""), Some(1.0), Some(2.0), &["cut-slope", "slope"]);
+    // In the file alone it is refused with its place.
+    let site = site(&JOB.replace("width = 7", "width = 7\nslope = '1:2'"));
+    let run = site.run("build site/job.toml");
+    assert_eq!(run.code, 2);
+    assert!(run.stderr.contains("  --> site/job.toml, line 4, column 9: --slope 1:2\n"), "{}", run.stderr);
+}
+
 /// What an option needs may stand in the file.
 #[test]
 fn options_lean_on_the_file() {

@@ -1,5 +1,6 @@
 //! The command line from outside: the program is run as people run it.
 
+mod agree;
 mod batch;
 mod build;
 mod check;

@@ -90,3 +90,21 @@ fn what_cannot_be_drawn_is_refused() {
     refused(&format!("{WAY} --plot plan.svg --plot nowhere/profile.svg"), 4, "nowhere");
     assert!(!site.path("plan.svg").exists());
 }
+
+/// Of each line as many cross-sections are drawn as one reads, and those left out are told: of the stations on that line.
+#[test]
+fn cross_sections_left_out_are_told() {
+    let site = Site::with("two.csv", "line,x,y,z\nshort,0,0,5\nshort,50,0,5\nlong,0,900,5\nlong,500,900,5\n");
+    // 30 on both lines, 40 more on the long one.
+    let stations: Vec<String> = (1..=30).chain((1..=40).map(|i| 60 + 10 * i)).map(|s| s.to_string()).collect();
+    let outputs = "-o m.obj --plot sections.svg --report r.html --quiet";
+    site.run(&format!("build two.csv --slope 1:2 --height 3 --section {} {outputs}", stations.join(","))).done();
+    let drawing = site.read("sections.svg");
+    let told: Vec<&str> = drawing.match_indices(" more stations are not drawn").map(|(at, _)| &drawing[at - 3..at]).collect();
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].ends_with("10"), "{told:?}");
+    let page = site.read("r.html");
+    let drawn = |name: &str| page.matches(&format!("aria-label=\"Cross-section of {name} at station")).count();
+    assert_eq!((drawn("short"), drawn("long")), (30, 60));
+    assert_eq!(page.matches("Of 70 stations asked for the first 60 are drawn; choose others with `--section`.").count(), 1);
+}

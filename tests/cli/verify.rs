@@ -255,6 +255,25 @@ fn reports_of_other_versions() {
     differs(&site, &["volumes.fill"]);
 }
 
+/// Of another platform as well: where the result is the same, what is made of it alone is the same bytes.
+#[test]
+fn outputs_from_another_platform() {
+    let site = pad();
+    tamper(&site, |report| report["run"]["platform"] = json!("riscv64-plan9"));
+    site.run(&format!("verify {TAMPERED}")).done();
+    // A mesh that was changed, and its hash with it.
+    let other = site.read("m.obj").replacen("v 5", "v 6", 1);
+    fs::write(site.path("m.obj"), &other).unwrap();
+    let hash: String =
+        <sha2::Sha256 as sha2::Digest>::digest(other.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
+    tamper(&site, |report| {
+        let outputs = report["result"]["outputs"].as_array_mut().unwrap();
+        let mesh = outputs.iter_mut().find(|output| output["path"] == "m.obj").unwrap();
+        mesh["sha256"] = json!(hash);
+    });
+    differs(&site, &["m.obj"]);
+}
+
 #[test]
 fn what_is_no_report_is_refused() {
     let site = pad();

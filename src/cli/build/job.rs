@@ -50,6 +50,7 @@ pub(in crate::cli) fn job(args: &BuildArgs) -> Result<BuildJob, UsageErrors> {
     let plots = checks.plots(args);
     let station_tables = checks.ending(&args.station_table, "table", &["csv"], "`.csv`");
     let local_origin = args.local_origin.as_ref().and_then(|text| checks.take(local_origin(text)));
+    checks.counted_from(args, meshes.iter().chain(&finished));
     let reports = checks.outputs(&args.report, ReportFormat::of);
     let drawn = plots.iter().any(|(_, d)| *d == Drawing::Sections) || reports.iter().any(|(_, format)| format.draws());
     let sections = checks.sections(args, drawn);
@@ -200,6 +201,15 @@ impl Checks {
             _ => {}
         }
         Rasters { cell: cell.unwrap_or(0.0), design, finished }
+    }
+
+    /// Refuses an origin that no mesh is counted from.
+    fn counted_from<'a>(&mut self, args: &BuildArgs, mut meshes: impl Iterator<Item = &'a (Target, MeshFormat)>) {
+        let Some(text) = args.local_origin.as_ref().filter(|_| self.is_clean()) else { return };
+        if !meshes.any(|(_, format)| format.is_single() || format.takes_origin()) {
+            let help = "name an output that ends in `.obj`, `.ply`, `.stl` or `.glb`, or leave out `--local-origin`";
+            self.refuse(format!("no output counts from a local origin\n  --> --local-origin={text}\n   = help: {help}"));
+        }
     }
 
     /// Where drawings go, and that there is what they need.

@@ -90,16 +90,10 @@ impl Made<'_> {
         matches!(self.contents[index], Content::Report(ReportFormat::Json))
     }
 
-    /// The order in which outputs are written, up to the first report in JSON and from there. Files first, because they can still be
-    /// taken back; standard output last; of each kind reports last, because they tell how long the rest took, those in JSON behind
-    /// the others.
+    /// The order in which outputs are written ([`desk::in_order`]), up to the first report in JSON and from there.
     pub(super) fn in_order(&self) -> (Vec<usize>, Vec<usize>) {
-        let Self { targets, contents, .. } = self;
-        let mut order: Vec<usize> = (0..targets.len()).collect();
-        order.sort_by_key(|&i| {
-            let stdout = targets[i] == Target::Stdout;
-            (stdout, targets[i].is_stream(), matches!(contents[i], Content::Report(_)), self.is_json(i))
-        });
+        let is_report = |i: usize| matches!(self.contents[i], Content::Report(_));
+        let mut order = desk::in_order(self.targets, is_report, |i| self.is_json(i));
         let first = order.iter().position(|&i| self.is_json(i)).unwrap_or(order.len());
         let after = order.split_off(first);
         (order, after)

@@ -74,7 +74,9 @@ pub(super) type LayeredMesh = (Vec<DVec3>, RawFaces, Vec<u32>, Vec<String>);
 /// # Errors
 /// As [`ground`]; also where the drawing has points only.
 pub(super) fn mesh(label: &str, bytes: &[u8], pick: &Pick, notes: &mut Vec<Note>) -> Result<(LayeredMesh, Said), ReadError> {
-    let (ground, (groups, names), said) = collected(label, bytes, pick, notes)?;
+    // Here the layers have the option of lines.
+    let found = collected(label, bytes, pick, notes).map_err(|error| error.with_option("--terrain-layer", "--layer"))?;
+    let (ground, (groups, names), said) = found;
     match ground {
         RawGround::Mesh { vertices, faces } => Ok(((vertices, faces, groups, names), said)),
         RawGround::Points(points) => {

@@ -74,10 +74,7 @@ fn looks(bytes: &[u8]) -> Looks {
         };
     }
     if first.starts_with(b"{") || first.starts_with(b"[") {
-        return Looks::Other(
-            "JSON",
-            "give the ground in one of the formats of `--terrain`, such as LandXML, OBJ or points as text",
-        );
+        return Looks::Other("JSON", "give it in a format that is read as ground, such as LandXML, OBJ or points as text");
     }
     if is(&[b"ncols", b"nrows", b"xllcorner", b"xllcenter", b"yllcorner", b"yllcenter"]) {
         return Looks::Like(InputFormat::Asc);
@@ -134,7 +131,7 @@ fn extension(format: InputFormat) -> &'static str {
 /// Refuses a file whose content is clearly not of the format asked for.
 pub(super) fn check(label: &str, bytes: &[u8], format: InputFormat) -> Result<(), ReadError> {
     if format == InputFormat::GeoJson {
-        let help = "give the ground in one of the formats of `--terrain`, such as LandXML, OBJ or points as text";
+        let help = "give it in a format that is read as ground, such as LandXML, OBJ or points as text";
         return Err(refuse("ground is not read from GeoJSON", label, "format: geojson", help));
     }
     if format == InputFormat::Gpx {

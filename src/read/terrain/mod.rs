@@ -161,6 +161,7 @@ fn parse(label: &str, bytes: &[u8], options: &TerrainOptions, by_name: Option<&C
     kind::check(label, bytes, format)?;
     let pick = &options.pick;
     pick.fits(label, format)?;
+    super::pick::order_fits(options.csv_order.as_ref(), label, format)?;
     room::for_content(label, format, bytes, &options.memory)?;
     let known = super::landxml::Known { pick, order: options.csv_order.as_ref(), unit: options.unit };
     // The checksum takes as long as the fast formats themselves.

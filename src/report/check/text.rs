@@ -66,7 +66,7 @@ fn page(report: &CheckReport) -> Page {
         page.words("triangles", &bins.collect::<Vec<_>>().join(", "));
         page.words("smallest", &format!("{:.4}°  {}", smallest.degrees, place(&smallest.place)));
     }
-    page.warnings("Notes", &report.warnings);
+    page.warnings(&report.warnings);
     page
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Change, DiffReport, Step, SurfaceChange};
 use crate::model::message::printable;
+use crate::report::result::short;
 use serde_json::Value;
 use std::fmt::Write as _;
 
@@ -28,7 +29,7 @@ pub fn render_diff(report: &DiffReport) -> String {
     let mut text =
         format!("{} {}: differences, the second less the first\n\nInputs compared\n", report.tool.name, report.tool.version);
     for input in &report.inputs {
-        let short = input.sha256.get(..12).unwrap_or(&input.sha256);
+        let short = short(&input.sha256);
         let _ = writeln!(text, "  {:8}{} ({}, sha256 {short})", input.role, printable(&input.path), printable(&input.format));
     }
     if let Some(changes) = &report.changes {

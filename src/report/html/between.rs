@@ -6,7 +6,6 @@ use super::shell::{Page, Section, noted};
 use super::volumes::net;
 use crate::report::between::{BetweenReference, BetweenReport, Spot};
 use crate::report::json::all_finite;
-use crate::report::text::ROUNDED;
 use crate::write::EncodeError;
 use maud::{Markup, html};
 use std::io::Write;
@@ -50,8 +49,7 @@ pub(super) fn render(report: &BetweenReport) -> String {
 fn summary(report: &BetweenReport, units: Units<'_>) -> Markup {
     let (v, d) = (&report.volumes, &report.depths);
     let (unit, a) = (units.0, &report.areas);
-    // What is left of rounding is no deficit.
-    let rest = if v.net.abs() < ROUNDED { 0.0 } else { v.net };
+    let (rest, balance) = v.balance.shown(v.net);
     let tile = |title: &str, class: &str, value: f64, power: &str, note: Option<&str>| {
         html! { div { dt { (title) } dd class=(class) { (number(value, 2)) " " span.u { (unit) (power) } }
         @if let Some(note) = note { dd.note { (note) } } } }
@@ -59,7 +57,7 @@ fn summary(report: &BetweenReport, units: Units<'_>) -> Markup {
     html! {
         p.verdict {
             strong.cut { "Cut " (units.volume(v.cut)) } ", " strong.fill { "fill " (units.volume(v.fill)) } ": "
-                (net(rest, v.balance, units)) "."
+                (net(v.net, v.balance, units)) "."
         }
         ul.marks {
             @if v.complete {
@@ -72,7 +70,7 @@ fn summary(report: &BetweenReport, units: Units<'_>) -> Markup {
         dl.tiles {
             (tile("Cut", "cut", v.cut, "³", None))
             (tile("Fill", "fill", v.fill, "³", None))
-            (tile("Net (cut − fill)", "", rest, "³", Some(v.balance.word())))
+            (tile("Net (cut − fill)", "", rest, "³", Some(balance.word())))
             (tile("Deepest cut", "cut", d.cut_max, "", None))
             (tile("Deepest fill", "fill", d.fill_max, "", None))
             (tile("Area of cut", "cut", a.cut, "²", None))

@@ -87,12 +87,9 @@ fn summary(report: &Report, units: Units<'_>) -> Markup {
             p.verdict { "A surface of constant slope through the line, without volumes." }
         }
         ul.marks {
-            @if let Some(v) = &report.volumes {
-                @if v.complete {
-                    li.good { @if report.terrain.is_some() { "Complete: all slopes meet the ground" } @else { "Complete: all slopes reach their end" } }
-                } @else {
-                    li.bad { "NOT complete: the slopes do not reach their end everywhere" }
-                }
+            @if report.volumes.is_some() {
+                @let (whole, words) = report.completeness();
+                @if whole { li.good { "Complete: " (words) } } @else { li.bad { "NOT complete: " (words) } }
             }
             @if sound { li.good { "Certificate passed" } } @else { li.bad { "Certificate NOT passed" } }
             (noted(&report.warnings))
@@ -114,7 +111,7 @@ fn tiles(report: &Report, units: Units<'_>) -> Markup {
             @if let Some(v) = &report.volumes {
                 (tile("Cut", "cut", with(number(v.cut, 2), "³"), None))
                 (tile("Fill", "fill", with(number(v.fill, 2), "³"), None))
-                (tile("Net (cut − fill)", "", with(number(v.net, 2), "³"), Some(html! { (v.balance.word()) })))
+                (tile("Net (cut − fill)", "", with(number(v.net, 2), "³"), Some(html! { (v.balance.shown(v.net).1.word()) })))
                 (tile("Error of each at most", "", with(number(v.error_bound, 2), "³"), None))
             }
             @if let Some(d) = report.depths.as_ref().filter(|_| report.volumes.is_some()) {

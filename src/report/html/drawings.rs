@@ -12,9 +12,6 @@ const MOST_AXES: usize = 6;
 /// Most cross-sections of a line, those of the deepest cut and the highest fill not counted, unless more are asked for.
 const MOST_SECTIONS: usize = 10;
 
-/// Most cross-sections of a line, even if more are asked for: each is some kilobytes.
-const MOST_ASKED: usize = 100;
-
 /// Width of a cross-section in px: two stand side by side.
 const SECTION_WIDTH: f64 = 500.0;
 
@@ -86,15 +83,15 @@ pub(super) fn sections(report: &Report, scene: &Scene<'_>, asked: &[f64]) -> Opt
             asked.iter().copied().filter(|s| (0.0..=length).contains(s)).collect()
         };
         let count = stations.len();
-        stations.truncate(MOST_ASKED);
+        stations.truncate(plot::MOST_SECTIONS);
         let drawn = plot::sections(scene, i, &stations, &Style { width: SECTION_WIDTH, ..Style::INLINE });
         let mut figures: Vec<Markup> = drawn
             .into_iter()
             .map(|(station, svg)| figure(&format!("Cross-section of {name} at station {station:.2}"), svg))
             .collect();
-        if count > MOST_ASKED {
-            figures.push(html! { p.small { "The first " (MOST_ASKED) " of "
-            (count) " cross-sections; `--plot sections.svg` draws all." } });
+        if count > plot::MOST_SECTIONS {
+            figures.push(html! { p.small { "Of " (count) " stations asked for the first " (plot::MOST_SECTIONS)
+            " are drawn; choose others with `--section`." } });
         }
         figures
     })

@@ -1,5 +1,6 @@
 //! Numbers and tables of the pages.
 
+pub(super) use crate::model::digits::typeset as plain;
 use crate::model::message::printable;
 use crate::report::Input;
 use maud::{Markup, html};
@@ -7,14 +8,7 @@ use maud::{Markup, html};
 /// Digits before the point from which on they are grouped by threes.
 const GROUPED: usize = 5;
 
-/// A figure with a minus sign of its own, and none before nought.
-pub(super) fn plain(value: f64, decimals: usize) -> String {
-    let text = format!("{:.decimals$}", value.abs());
-    let nought = !text.bytes().any(|b| (b'1'..=b'9').contains(&b));
-    if value < 0.0 && !nought { format!("−{text}") } else { text }
-}
-
-/// The same with thousands set apart. The gaps are of the style, not of the text: copied figures have none.
+/// A figure with thousands set apart. The gaps are of the style, not of the text: copied figures have none.
 pub(super) fn number(value: f64, decimals: usize) -> Markup {
     let text = plain(value, decimals);
     let (sign, text) = text.strip_prefix('−').map_or(("", text.as_str()), |rest| ("−", rest));

@@ -1,7 +1,7 @@
 //! Cut and fill on the page of `build`: measured, with the change in volume of the soil, by part, by station.
 
 use super::parts::{Units, name, number, plain};
-use crate::report::text::in_percent;
+use crate::model::digits::in_percent;
 use crate::report::{Balance, BulkingFigures, CutFillFigures, PadRow, Report, StationRow, Volumes};
 use maud::{Markup, html};
 
@@ -10,6 +10,7 @@ pub(super) const MOST_ROWS: usize = 5000;
 
 /// `629.16 m³ surplus`, in words.
 pub(super) fn net(net: f64, balance: Balance, units: Units<'_>) -> Markup {
+    let (net, balance) = balance.shown(net);
     let amount = units.volume(net.abs());
     html! {
         @match balance {
@@ -87,7 +88,7 @@ fn measured(report: &Report, v: &Volumes, units: Units<'_>) -> Markup {
             }
         }
         p.small {
-            "Net " (units.volume(v.net)) ": " strong { (v.balance.word()) } "."
+            "Net " (units.volume(v.balance.shown(v.net).0)) ": " strong { (v.balance.shown(v.net).1.word()) } "."
             @if let Some(pads) = pads { " Of this, platforms without a station: cut " (units.volume(pads.cut)) ", fill "
                 (units.volume(pads.fill)) "." }
         }
@@ -113,7 +114,7 @@ fn bulking(soil: BulkingFigures, units: Units<'_>) -> Markup {
                         td.n { strong { (number(soil.fill_compacted, 2)) } }
                     }
                     tr.sum { th scope="row" { "Net" } td.n { (number(soil.net_bank, 2)) } td colspan="2" {
-                        (soil.balance.word()) ", in bank" } }
+                        (soil.balance.shown(soil.net_bank).1.word()) ", in bank" } }
                 }
             }
         }
@@ -186,7 +187,7 @@ pub(super) fn stations(report: &Report, rows: &[StationRow], units: Units<'_>) -
                         th.n scope="col" { "from" } th.n scope="col" { "to" }
                         th.n.lead.cut scope="col" { "cut" } th.n.fill scope="col" { "fill" }
                         th.n.lead.cut scope="col" { "cut" } th.n.fill scope="col" { "fill" }
-                        @if compacted { th.n.lead scope="col" { "bank" } th.n scope="col" { "compacted" } } @else {
+                        @if compacted { th.n.lead scope="col" { "as measured" } th.n scope="col" { "compacted" } } @else {
                             th.n.lead scope="col" { "cut − fill" } }
                         @if sections {
                             @for _ in 0..2 { th.n.lead.cut scope="col" { "cut" } th.n.fill scope="col" { "fill" } }

@@ -5,9 +5,6 @@ use crate::report::page::Page;
 use crate::write::EncodeError;
 use std::io::Write;
 
-/// Volumes below this are printed as nought.
-pub(in crate::report) const ROUNDED: f64 = 0.005;
-
 /// Writes the report of a comparison as plain text, UTF-8. The same report gives the same bytes; times are not in it.
 ///
 /// # Errors
@@ -54,9 +51,8 @@ fn page(report: &BetweenReport) -> Page {
     }
     page.volume("cut", v.cut, "");
     page.volume("fill", v.fill, "");
-    // What is left of rounding is no deficit.
-    let net = if v.net.abs() < ROUNDED { 0.0 } else { v.net };
-    page.volume("net (cut − fill)", net, &format!(" {}", v.balance.word()));
+    let (net, balance) = v.balance.shown(v.net);
+    page.volume("net (cut − fill)", net, &format!(" {}", balance.word()));
     page.words("complete", if v.complete { "yes" } else { "NO, not all of the design lies over the existing surface" });
     if let Some(cells) = v.cells {
         page.count("prisms", cells);
@@ -88,7 +84,7 @@ fn page(report: &BetweenReport) -> Page {
             page.words("  at", &format!("{x:.3}, {y:.3}, {z:.3}"));
         }
     }
-    page.warnings("Warnings", &report.warnings);
+    page.warnings(&report.warnings);
     page
 }
 

@@ -1,5 +1,6 @@
 //! What the report for people says about existing ground.
 
+use crate::model::digits::{self, in_percent};
 use crate::model::message::printable;
 use crate::report::page::{Column, Group, NAME, NUMBER, Page, Row};
 use crate::report::{BulkingFigures, CutFillFigures, DepthPlace, Depths, PadRow, Report, SlopeRange, StationRow, Volumes};
@@ -32,7 +33,7 @@ pub(super) fn terrain(page: &mut Page, report: &Report) {
         page.length("  of cut", daylight.cut_length);
         page.length("  of fill", daylight.fill_length);
         if daylight.open_length > 0.0 {
-            page.length("open at the edge", daylight.open_length);
+            page.length("ends off the ground", daylight.open_length);
         }
     }
     if let Some(finished) = report.finished {
@@ -74,14 +75,8 @@ pub(super) fn bulking(page: &mut Page, soil: BulkingFigures) {
     page.volume("fill compacted", soil.fill_compacted, "");
     page.volume("  needed for it", soil.fill_bank, " (bank)");
     page.volume("  dug", soil.fill_loose, " (loose)");
-    page.volume("net in the ground", soil.net_bank, &format!(" (bank) {}", soil.balance.word()));
-}
-
-/// A share in percent, with the digits it was typed with.
-pub(in crate::report) fn in_percent(share: f64) -> f64 {
-    /// Digits that a share is typed with.
-    const DIGITS: f64 = 1e10;
-    (100.0 * share * DIGITS).round() / DIGITS
+    let (net, balance) = soil.balance.shown(soil.net_bank);
+    page.volume("net in the ground", net, &format!(" (bank) {}", balance.word()));
 }
 
 /// Greatest and mean depths, with the places of the greatest.
@@ -119,7 +114,7 @@ pub(super) fn stations(page: &mut Page, rows: &[StationRow], pads: Option<PadRow
     let sections = rows.iter().any(|row| row.sections.is_some());
     let group = |title, names: &[&'static str]| Group::numbers(title, names, LEAST_COLUMN);
     let mut groups = vec![group("", &["from", "to"]), group("exact", &["cut", "fill"])];
-    groups.push(group("running net", if compacted { &["in bank", "compacted"] } else { &[""] }));
+    groups.push(group("running net", if compacted { &["as measured", "compacted"] } else { &[""] }));
     if sections {
         groups.extend([group("average end area", &["cut", "fill"]), group("prismoidal", &["cut", "fill"])]);
     }
@@ -160,8 +155,7 @@ pub(super) fn stations(page: &mut Page, rows: &[StationRow], pads: Option<PadRow
 /// Least width of a column of a table.
 const LEAST_COLUMN: usize = 6;
 
-/// Two decimals, and no sign before nought.
+/// A figure of the table.
 fn decimals(value: f64) -> String {
-    let text = format!("{value:.2}");
-    if text == "-0.00" { "0.00".to_owned() } else { text }
+    digits::plain(value, 2)
 }

@@ -13,14 +13,22 @@ pub(super) fn cases() -> Vec<Case> {
             features(&[open(&[[0.0, 0.0, 0.0], [10.0, 0.0, 6.0]])]),
             "as steep as the slope asked for",
         ),
-        lines("elevation that is no number", features(&[open(&[[0.0, 0.0, 0.0], [10.0, 0.0, f64::NAN]])]), ""),
+        lines(
+            "elevation that is no number",
+            features(&[open(&[[0.0, 0.0, 0.0], [10.0, 0.0, f64::NAN]])]).replace("NaN", "null"),
+            "z is null",
+        ),
         lines("longitude and latitude", features(&[open(&[[11.5, 48.1, 500.0], [11.6, 48.2, 501.0]])]), "degrees"),
         lines("ring that crosses itself", features(&[bow_tie()]), "cross"),
-        lines("line without length", features(&[open(&[[1.0, 1.0, 0.0], [1.0, 1.0, 0.0]])]), ""),
-        ground("easting and northing swapped", plane([5_400_000.0, 500_000.0], 200.0, |_, _| 0.0), ""),
+        lines("line without length", features(&[open(&[[1.0, 1.0, 0.0], [1.0, 1.0, 0.0]])]), "at least 2 distinct vertices"),
+        ground(
+            "easting and northing swapped",
+            plane([5_400_000.0, 500_000.0], 200.0, |_, _| 0.0),
+            "do not lie at the same place",
+        ),
         ground("ground too small for the slopes", plane([500_000.0, 5_400_000.0], 20.0, |_, _| 0.0), "do not meet the ground"),
         ground("gap in the ground", gap(), "no ground"),
-        ground("ground that lies upon itself", double(), ""),
+        ground("ground that lies upon itself", double(), "triangles of the ground lie on each other"),
         twice_there(),
     ]
 }
@@ -67,5 +75,10 @@ fn double() -> String {
 
 fn twice_there() -> Case {
     let files = vec![("a.obj", double()), ("b.obj", plane([500_000.0, 5_400_000.0], 200.0, |_, _| 0.0))];
-    refused("volume of a surface that lies upon itself", files, volume(between("a.obj", "b.obj"), None), "")
+    refused(
+        "volume of a surface that lies upon itself",
+        files,
+        volume(between("a.obj", "b.obj"), None),
+        "lie on each other in plan",
+    )
 }
