@@ -123,6 +123,21 @@ mod polylines {
         assert_eq!(read_with(drawing(old), &fine).unwrap().lines[0].vertices.len(), 81);
     }
 
+    /// The bound on chords is in the unit of the run: 0.01 ft of a drawing in metres are 0.003048 m.
+    #[test]
+    fn arcs_of_another_unit() {
+        let arc = "0 LWPOLYLINE 8 PAD 70 1 38 7 10 0 20 0 42 1 10 10 20 0";
+        let head = |units: u32| text(&format!("0 SECTION 2 HEADER 9 $INSUNITS 70 {units} 0 ENDSEC"));
+        let count = |units: u32, unit: Option<LengthUnit>| {
+            let read = read_with(head(units) + &drawing(arc), &ReadOptions { unit, ..options() }).unwrap();
+            assert_eq!(codes(&read.notes), [""; 0]);
+            read.lines[0].vertices.len() - 2
+        };
+        // 5·(1 − cos(β/2)) ≤ 0.003048: β ≤ 0.069838, 45 chords. The other way round 0.01 m are 0.0328 ft: β ≤ 0.229205, 14 chords.
+        assert_eq!((count(6, None), count(6, Some(LengthUnit::Metre)), count(6, Some(LengthUnit::Foot))), (25, 25, 45));
+        assert_eq!((count(2, None), count(2, Some(LengthUnit::Metre)), count(0, Some(LengthUnit::Foot))), (25, 14, 25));
+    }
+
     #[test]
     fn seen_from_below() {
         // With the extrusion 0,0,−1 the x of the system runs west and its z down; the bulge turns the other way.
@@ -446,7 +461,7 @@ mod blocks {
         // Symbols at every point are no bomb: a hundred pairs each.
         let symbol = "0 CIRCLE 10 1 20 1 40 1 ".repeat(24);
         let inserts: String = (0..25_000).map(|i| format!("0 INSERT 2 S 10 {i} 20 {} ", i % 100)).collect();
-        let points = ground(with_blocks(&format!("0 BLOCK 2 S {symbol} 0 POINT 30 7 0 ENDBLK"), &inserts)).unwrap();
+        let points = ground(with_blocks(&format!("0 BLOCK 2 S {symbol} 0 POINT 10 0 20 0 30 7 0 ENDBLK"), &inserts)).unwrap();
         assert!(matches!(&points.ground, RawGround::Points(list) if list.len() == 25_000));
         // No copies, or fewer, are one.
         assert_eq!(lines(with_blocks(&format!("0 BLOCK 2 A {LINE} 0 ENDBLK"), "0 INSERT 2 A 70 0 71 -5")).len(), 1);
@@ -492,6 +507,19 @@ mod of_ground {
         // Four corners; the fourth the first; two corners only.
         let (_, faces) = mesh(drawing(&format!("{}{}{}", face([A, B, C, D]), face([A, B, C, A]), face([A, A, B, B]))));
         assert_eq!(faces, RawFaces::Polygons { corners: vec![0, 1, 2, 3, 0, 1, 2, 0, 1, 1], ends: vec![4, 7, 10] });
+    }
+
+    /// Few programs leave the fourth corner of triangles out; then it is the third, and not the origin.
+    #[test]
+    fn faces_without_fourth_corner() {
+        let of = |corners: [[f64; 3]; 4]| face(corners).split(" 13 ").next().unwrap().to_owned() + " ";
+        let (vertices, faces) = mesh(drawing(&format!("{}{}", of([B, C, D, A]), face([B, D, A, A]))));
+        assert_eq!(vertices, [B, C, D, A]);
+        assert_eq!(faces, RawFaces::Triangles(vec![[0, 1, 2], [0, 2, 3]]));
+        let message = ground(drawing(&(of([B, C, D, A]) + "13 5 33 1"))).unwrap_err();
+        assert!(message.contains("a.dxf, line 5\n") && message.contains("no y (group codes 20 to 23)"), "{message}");
+        let message = ground(drawing("0 POINT 8 P 30 3")).unwrap_err();
+        assert!(message.contains("neither x (group codes 10 to 13) nor y"), "{message}");
     }
 
     #[test]
@@ -611,7 +639,7 @@ mod files {
             assert!(message.contains(words) && message.contains("help"), "{message}");
         }
         assert!(error(drawing("0 CIRCLE 8 A 40 1")).contains("`A`: 1 other entity"));
-        assert!(error(drawing("0 POLYLINE 8 A 70 8 0 VERTEX 10 1 0 LINE 10 1")).contains("do not end with SEQEND"));
+        assert!(error(drawing("0 POLYLINE 8 A 70 8 0 VERTEX 10 1 20 2 0 LINE 10 1")).contains("do not end with SEQEND"));
     }
 
     #[test]
@@ -622,6 +650,10 @@ mod files {
             ("0 LWPOLYLINE 8 A 10 1 20 x", 12, "group code 20: `x`"),
             ("0 LWPOLYLINE 70 1.5", 8, "whole number"),
             ("0 LINE 8 A 1x 1", 9, "`1x` where a group code"),
+            ("0 LINE 8 A 10 1 20 2 30 3", 5, "lacks coordinates\n  --> a.dxf, line 5\n   = neither x"),
+            ("0 LINE 8 A 10 1 20 2 11 3", 5, "no y"),
+            ("0 LWPOLYLINE 8 A 10 1 20 2 10 3", 13, "no y"),
+            ("0 POLYLINE 70 8 0 VERTEX 10 1 20 2 0 VERTEX 20 3 0 SEQEND", 15, "no x"),
         ] {
             let message = error(drawing(entity));
             assert!(message.contains(&format!("a.dxf, line {line}\n")) && message.contains(words), "{message}");

@@ -171,6 +171,14 @@ fn points_are_triangulated() {
     assert!(error.contains("make no surface"), "{error}");
     let error = ground(InputFormat::Csv, format!("{text}500005,5400005,-9999\n").as_bytes()).unwrap_err();
     assert!(error.contains("marker for a missing height") && error.contains("vertex 37"), "{error}");
+    assert!(error.ends_with("help: take such points out"), "{error}");
+    let grid = "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -32768\n100 101 102\n103 -9999 104\n";
+    let error = ground(InputFormat::Asc, grid.as_bytes()).unwrap_err();
+    assert!(error.ends_with("help: declare it in the head of the file: `NODATA_value -9999`"), "{error}");
+    let mut with = vertices();
+    with[14][2] = -9999.0;
+    let error = ground(InputFormat::Obj, obj(&with, &triangles()).as_bytes()).unwrap_err();
+    assert!(error.ends_with("help: take such points out, and the faces that use them"), "{error}");
     // The name of a file says its columns, or nothing does.
     let folder = tempfile::tempdir().unwrap();
     for (name, sound) in [("a.xyz", true), ("a.txt", false)] {

@@ -52,10 +52,12 @@ impl Memory {
         self.limit
     }
 
-    /// The share of each of `jobs` that run at once.
+    /// The share of each of `jobs` that run at once in this process: of what there is beside [`BASE`], which the process takes
+    /// once, and [`BASE`].
     #[must_use]
     pub fn shared(self, jobs: usize) -> Self {
-        Self { limit: self.limit.map(|(bytes, by)| (bytes / jobs.max(1) as u64, by)), ..self }
+        let share = |bytes: u64| bytes.min(BASE) + bytes.saturating_sub(BASE) / jobs.max(1) as u64;
+        Self { limit: self.limit.map(|(bytes, by)| (share(bytes), by)), ..self }
     }
 
     /// The same with `bytes` that are held already, beside [`BASE`].
@@ -121,8 +123,11 @@ impl fmt::Display for TooLarge {
 
 impl std::error::Error for TooLarge {}
 
+/// With a decimal below 100 MB: figures that differ look different.
 fn megabytes(bytes: u64) -> String {
-    format!("{:.0} MB", bytes as f64 / MB)
+    const LARGE: f64 = 99.95;
+    let megabytes = bytes as f64 / MB;
+    if megabytes < LARGE { format!("{megabytes:.1} MB") } else { format!("{megabytes:.0} MB") }
 }
 
 #[cfg(test)]
@@ -141,13 +146,17 @@ mod tests {
         assert_eq!(
             memory.holding(1_600_000).room(2_000_000, need).unwrap_err().to_string(),
             "there is not enough memory to read the ground\n  --> a.ply\n   \
-             = a file of 5 MB would take about 14 MB; 12 MB are allowed, by `--max-memory`\n   \
+             = a file of 5 MB would take about 13.6 MB; 12.4 MB are allowed, by `--max-memory`\n   \
              = help: take a smaller part, or raise `--max-memory`"
         );
-        assert!(memory.shared(2).room(0, need).is_err() && memory.shared(0).room(2_400_000, need).is_ok());
+        // The program itself is there once: what is shared is the 2.4 MB beside it.
+        assert!(memory.shared(2).room(1_200_000, need).is_ok() && memory.shared(2).room(1_200_001, need).is_err());
+        assert!(memory.shared(0).room(2_400_000, need).is_ok() && memory.shared(usize::MAX).room(0, need).is_ok());
+        assert!(Memory::limited(4, LimitedBy::Option).shared(2).room(0, need).is_err());
+        assert_eq!([99_949_999, 99_950_000, 12_345_678_900].map(megabytes), ["99.9 MB", "100 MB", "12346 MB"]);
         let by = LimitedBy::Machine;
         assert!(Memory::limited(1, by).room(2_000_001, need).unwrap_err().to_string().ends_with(
-            "0 MB are allowed, by what this machine has free\n   = help: take a smaller part; `--max-memory 13MB` would try it all the same"
+            "12.0 MB; 0.0 MB are allowed, by what this machine has free\n   = help: take a smaller part; `--max-memory 13MB` would try it all the same"
         ));
     }
 }

@@ -14,7 +14,7 @@ pub enum SlopeError {
     #[error("`{0}` is not a slope\n   = help: write `1:1.5`, `2H:1V`, `1in2`, `50%` or `26.57deg`")]
     NotUnderstood(String),
     /// A number that does not say what it is.
-    #[error("`{0}` does not say which kind of slope it is\n   = help: write `{0}V:1H`, `{0}H:1V`, `{0}%` or `{0}deg`")]
+    #[error("`{0}` does not say which kind of slope it is\n   = help: write {spelt}", spelt = spellings(.0))]
     BareNumber(String),
     /// A ratio that the trades read in opposite ways.
     #[error(
@@ -47,6 +47,17 @@ pub enum SlopeError {
         /// What it means: rise per run.
         ratio: f64,
     },
+}
+
+/// What a bare number may mean, as far as that is a slope.
+fn spellings(number: &str) -> String {
+    let all = [format!("{number}V:1H"), format!("{number}H:1V"), format!("{number}%"), format!("{number}deg")];
+    let some: Vec<String> = all.iter().filter(|text| text.parse::<Slope>().is_ok()).map(|text| format!("`{text}`")).collect();
+    match some.as_slice() {
+        [] => "a slope between 1V:10000H and 10000V:1H, such as `1:1.5`".to_owned(),
+        [one] => one.clone(),
+        [before @ .., last] => format!("{} or {last}", before.join(", ")),
+    }
 }
 
 fn angle(rise: &f64, run: &f64) -> String {

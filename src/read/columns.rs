@@ -61,7 +61,7 @@ impl FromStr for ColumnOrder {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        const LETTERS: &str = "letters: x or e easting, y or n northing, z elevation, l line id, p point number, \
+        const LETTERS: &str = "letters: x or e easting, y or n northing, z or h elevation, l line id, p point number, \
                                d description, _ skip; e.g. xyz, enz, pnezd";
         let text = text.trim().to_ascii_lowercase();
         let (mut x, mut y, mut z, mut id) = (None, None, None, None);
@@ -74,8 +74,12 @@ impl FromStr for ColumnOrder {
                 'p' | 'd' | '_' => continue,
                 _ => return Err(format!("`{letter}` is no column; {LETTERS}")),
             };
-            if place.replace(i).is_some() {
-                return Err(format!("the column `{letter}` is given twice in `{text}`; {LETTERS}"));
+            if let Some(before) = place.replace(i).and_then(|before| text.chars().nth(before)) {
+                let what = match letter {
+                    _ if before == letter => format!("the column `{letter}` is given twice"),
+                    _ => format!("the columns `{before}` and `{letter}` are the same"),
+                };
+                return Err(format!("{what} in `{text}`; {LETTERS}"));
             }
         }
         match (x, y) {
@@ -83,6 +87,22 @@ impl FromStr for ColumnOrder {
             _ => Err(format!("`{text}` must name easting and northing; {LETTERS}")),
         }
     }
+}
+
+/// The order in which a header would be meant where `Y` is the easting, as in lists of Gauss-Krüger coordinates; `None` unless a
+/// column `Y` stands before a column `X`, taken as northing and easting by their names.
+pub(super) fn y_as_easting(headings: &[&str], columns: &Columns) -> Option<String> {
+    let unsaid = |at: usize| headings.get(at).and_then(|heading| meaning(heading));
+    let named = matches!(unsaid(columns.x), Some(Meaning::X(CoordinateKind::Unknown)))
+        && matches!(unsaid(columns.y), Some(Meaning::Y(CoordinateKind::Unknown)));
+    let letter = |at: usize| match at {
+        _ if at == columns.y => 'e',
+        _ if at == columns.x => 'n',
+        _ if Some(at) == columns.z => 'z',
+        _ if Some(at) == columns.id => 'l',
+        _ => '_',
+    };
+    (named && columns.y < columns.x).then(|| (0..columns.named).map(letter).collect())
 }
 
 /// Why a header does not say where the columns are.
@@ -282,6 +302,19 @@ mod tests {
     }
 
     #[test]
+    fn y_before_x() {
+        let order = |header: &str| {
+            let headings: Vec<&str> = header.split(';').collect();
+            y_as_easting(&headings, &from_header(&headings, true).unwrap())
+        };
+        assert_eq!(order("Punkt;Y;X;Z;Code").as_deref(), Some("_enz_"));
+        assert_eq!(order("Linie;y [m];x [m];H").as_deref(), Some("lenz"));
+        for plain in ["Punkt;X;Y;Z", "Hochwert;Rechtswert;Z", "N;E;Z", "lat;lon;z", "north;x;z"] {
+            assert_eq!(order(plain), None, "{plain}");
+        }
+    }
+
+    #[test]
     fn two_candidates_are_an_error() {
         let both = |what, a: &str, b: &str| Err(HeaderProblem::Ambiguous(what, vec![a.to_owned(), b.to_owned()]));
         assert_eq!(places("x,y,northing,z"), both("northing", "y", "northing"));
@@ -299,6 +332,9 @@ mod tests {
         assert_eq!(order.columns(true).unwrap().id, Some(0));
         assert!("xy".parse::<ColumnOrder>().unwrap().columns(true).is_none());
         assert!("xy".parse::<ColumnOrder>().unwrap().columns(false).is_some());
+        let message = |order: &str| order.parse::<ColumnOrder>().unwrap_err();
+        assert!(message("xeyz").starts_with("the columns `x` and `e` are the same in `xeyz`; letters: "));
+        assert!(message("xxyz").starts_with("the column `x` is given twice in `xxyz`; letters: "));
         for bad in ["", "xz", "xxyz", "xeyz", "xyq", "äöü"] {
             assert!(bad.parse::<ColumnOrder>().is_err(), "{bad}");
         }

@@ -5,12 +5,13 @@ mod plain;
 mod rows;
 
 use super::columns::{self, ColumnOrder, Columns, HeaderProblem};
+use super::error::{clip, refuse};
 use super::number::{self, Field};
 use super::sniff::{self, Delimiter};
 use super::{CoordinateKind, PointRow, RawLine, RawShape, RawVertex, ReadError, Source};
 use crate::model::{Defect, Defects, Note};
 use glam::DVec3;
-use parse::{Table, clip};
+use parse::Table;
 use rows::{is_blank, is_comment};
 use std::collections::HashMap;
 
@@ -24,7 +25,7 @@ pub(super) fn lines(
 ) -> Result<Vec<RawLine>, ReadError> {
     let mut table = table(text, source, order, want_z, notes)?;
     let count = table.records.len();
-    if count > 1 && table.ids.len() == count {
+    if count > 1 && table.ids.len() + closings(&table) == count {
         notes.push(Note::new(
             "id-is-point-number",
             "the id column differs in every row: it is taken as a point number, not as a line id",
@@ -38,6 +39,13 @@ pub(super) fn lines(
         table.records.iter_mut().for_each(|record| record.block = 0);
     }
     Ok(group(&table, notes))
+}
+
+/// How many rows close a ring by repeating its first row, id and place alike: the last of a run of four and more.
+fn closings(table: &Table) -> usize {
+    let place = |r: &parse::Record| (r.id, r.x, r.y, r.z);
+    let closes = |run: &&[parse::Record]| run.len() > 3 && run.first().map(place) == run.last().map(place);
+    table.records.chunk_by(|a, b| a.block == b.block).filter(closes).count()
 }
 
 /// Rows of one id between two blank lines make one line.
@@ -125,7 +133,7 @@ fn layout(
         }
     }
     let Some((first_number, first_row)) = first else {
-        return Err(content("the file is empty", &source.label, "no row with data", "give at least two rows of x, y, z"));
+        return Err(refuse("the file is empty", source.label.as_str(), "no row with data", "give at least two rows of x, y, z"));
     };
     let fields = sniff::split(first_row, delimiter);
     let numbers = |f: &&&str| matches!(number::field(f, delimiter.decimal_comma()), Field::Number(..) | Field::Grouped);
@@ -133,7 +141,7 @@ fn layout(
     let at = format!("{}, row {first_number}", source.label);
     let no_z = |order: &ColumnOrder| {
         let help = "add `z` where the elevation stands";
-        content("the column order has no elevation", &source.label, &format!("`{order}`"), help)
+        refuse("the column order has no elevation", source.label.as_str(), format!("`{order}`"), help)
     };
     let columns = match order {
         Some(order) => {
@@ -145,7 +153,15 @@ fn layout(
         }
         None if has_header => {
             let fields = merge_units(&fields);
-            columns::from_header(&fields, want_z).map_err(|problem| header_error(problem, &at, &fields))?
+            let columns = columns::from_header(&fields, want_z).map_err(|problem| header_error(problem, &at, &fields))?;
+            if let Some(order) = columns::y_as_easting(&fields, &columns) {
+                let message = format!(
+                    "Y stands before X in the header: by their names X is taken as easting and Y as northing. If Y is the easting, \
+                     as in lists of Gauss-Krüger coordinates, give `--csv-order {order}` (for ground `--terrain-order`)"
+                );
+                notes.push(Note::new("header-y-first", message));
+            }
+            columns
         }
         None => match last_comment.and_then(|c| header_in_comment(c, delimiter, fields.len(), want_z)) {
             Some(columns) => {
@@ -179,7 +195,7 @@ fn table(
 fn read_table(text: &str, label: &str, layout: &Layout, notes: &mut Vec<Note>) -> Result<Table, ReadError> {
     let (clean, places) = rows::clean(text, layout.delimiter, layout.header);
     if places.is_empty() {
-        return Err(content("the file has a header but no data", &layout.at, "no row follows", "give at least two rows"));
+        return Err(refuse("the file has a header but no data", layout.at.as_str(), "no row follows", "give at least two rows"));
     }
     let (table, comma) = parse::parse(&clean, &places, &layout.columns, layout.delimiter, label)?;
     notes.push(dialect(table.records.len(), layout, comma));
@@ -249,23 +265,19 @@ fn header_in_comment(comment: &str, delimiter: Delimiter, width: usize, want_z: 
     columns::from_header(&fields, want_z).ok()
 }
 
-fn content(what: &str, at: &str, figures: &str, help: &str) -> ReadError {
-    ReadError::Content { what: what.into(), at: at.into(), figures: figures.into(), help: help.into() }
-}
-
 fn header_error(problem: HeaderProblem, at: &str, headings: &[&str]) -> ReadError {
-    let found = clip(&headings.join(" | "));
+    let found = clip(headings.join(" | "));
     match problem {
         HeaderProblem::Lacks(what) => {
             let help = "name the columns e.g. `x,y,z`, `easting,northing,elevation`, `Rechtswert;Hochwert;Höhe`, or give \
                         `--csv-order`";
-            content(&format!("the header has no column for the {what}"), at, &format!("columns: {found}"), help)
+            refuse(&format!("the header has no column for the {what}"), at, format!("columns: {found}"), help)
         }
         HeaderProblem::Ambiguous(what, names) => {
             let names: Vec<String> = names.iter().map(|name| format!("`{}`", clip(name))).collect();
             let help = "rename the columns not meant, or give `--csv-order` with `_` for columns to skip";
             let what = format!("the header has several columns for the {what}");
-            content(&what, at, &format!("{} could all be meant", clip(&names.join(", "))), help)
+            refuse(&what, at, format!("{} could all be meant", clip(names.join(", "))), help)
         }
     }
 }
@@ -278,5 +290,5 @@ fn no_header(row: &str, at: &str, want_z: bool) -> ReadError {
     } else {
         "name the columns: `--csv-order xy` if easting comes first, `yx` if northing does; `_` skips a column"
     };
-    content(what, at, &format!("first row: `{}`", clip(row.trim())), help)
+    refuse(what, at, format!("first row: `{}`", clip(row.trim())), help)
 }

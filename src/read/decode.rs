@@ -4,6 +4,21 @@ use super::ReadError;
 use crate::model::Note;
 use std::borrow::Cow;
 
+/// Letters of Windows-1252 at 0x80 to 0x9F, where ISO-8859-1 has control characters (mapping of the Unicode Consortium,
+/// VENDORS/MICSFT/WINDOWS/CP1252.TXT). Bytes without a letter stay what they are.
+const WINDOWS_1252: [char; 32] = [
+    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', '\u{90}', '‘', '’', '“', '”',
+    '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
+];
+
+/// The letter of a byte in Windows-1252, which is ISO-8859-1 with more letters.
+pub(super) fn windows_1252(byte: u8) -> char {
+    match byte {
+        0x80..=0x9F => WINDOWS_1252[usize::from(byte - 0x80)],
+        _ => char::from(byte),
+    }
+}
+
 /// The text of a file: UTF-8 (with or without byte order mark), UTF-16 with byte order mark, else ISO-8859-1.
 ///
 /// ISO-8859-1 is only a guess, but one that cannot spoil figures: they are ASCII. So it is taken with a note.
@@ -17,7 +32,12 @@ pub(super) fn text<'a>(label: &str, bytes: &'a [u8], notes: &mut Vec<Note>) -> R
         [0xFE, 0xFF, rest @ ..] => utf16(label, rest, u16::from_be_bytes)?,
         _ => utf8_or_latin1(bytes, notes),
     };
-    if let Some(at) = memchr::memchr(0, text.as_bytes()) {
+    if memchr::memchr(0, text.as_bytes()).is_some() {
+        // Where it stands in the file: marks and letters may take other bytes there.
+        let at = match bytes {
+            [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => 2 * bytes.chunks(2).position(|pair| pair == [0, 0]).unwrap_or(0),
+            _ => memchr::memchr(0, bytes).unwrap_or(0),
+        };
         return Err(ReadError::Content {
             what: "the file is not text".into(),
             at: label.to_owned(),
@@ -72,6 +92,9 @@ mod tests {
         assert_eq!(read(b"\xFE\xFF\0x\0\xF6"), (Ok("xö".into()), 0));
         assert!(read(b"\xFF\xFEx").0.unwrap_err().contains("odd number of bytes"));
         assert!(read(b"\xFF\xFE\0\xD8").0.unwrap_err().contains("unpaired surrogate"));
-        assert!(read(b"x\0y\0").0.unwrap_err().contains("byte 2 is zero"));
+        let zero = |bytes: &[u8]| read(bytes).0.unwrap_err();
+        assert!(zero(b"x\0y\0").contains("byte 2 is zero") && zero(b"\xEF\xBB\xBFx\0").contains("byte 5 is zero"));
+        assert!(zero(b"\xF6\xF6\0").contains("byte 3 is zero"));
+        assert!(zero(b"\xFF\xFEx\0\0\0").contains("byte 5 is zero") && zero(b"\xFE\xFF\x01\0\0\0").contains("byte 5 is zero"));
     }
 }

@@ -1,7 +1,7 @@
 //! Reports of this program, read back.
 
 use super::ReadError;
-use super::terrain::refuse;
+use super::error::refuse;
 use serde_json::Value;
 use std::io::Read as _;
 use std::path::Path;

@@ -100,6 +100,24 @@ fn without(help: &str, options: &[&str]) -> String {
     if kept.is_empty() { "give a file of which all is meant".to_owned() } else { kept }
 }
 
+/// A file refused as a whole.
+pub(super) fn refuse(what: &str, at: impl Into<String>, figures: impl Into<String>, help: &str) -> ReadError {
+    ReadError::Content { what: what.into(), at: at.into(), figures: figures.into(), help: help.into() }
+}
+
+/// A piece of a file short enough for a message, with what cannot be printed replaced.
+pub(super) fn clip(text: impl AsRef<[u8]>) -> String {
+    const LONGEST: usize = 60;
+    /// Bytes of a letter, at most.
+    const WIDEST: usize = 4;
+    let bytes = text.as_ref();
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(WIDEST * (LONGEST + 1))]);
+    let shown = |c: char| if c.is_control() && c != '\t' { '·' } else { c };
+    let short: String = text.chars().take(LONGEST).map(shown).collect();
+    let cut = text.chars().nth(LONGEST).is_some();
+    format!("{}{}", short.trim(), if cut { "…" } else { "" })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -116,5 +134,14 @@ mod tests {
         let class = "give the classes that are ground with `--class`, such as `--class 2,8`";
         assert_eq!(without(class, &["--class"]), "give a file of which all is meant");
         assert_eq!(without("do `--class 1`; or that", &["--class"]), "or that");
+    }
+
+    #[test]
+    fn pieces_of_files_in_messages() {
+        let long = "ä".repeat(61);
+        assert_eq!(clip(&long), "ä".repeat(60) + "…");
+        assert_eq!((clip(&long[..120]), clip(" a\tb\u{1}c\n")), ("ä".repeat(60), "a\tb·c·".to_owned()));
+        assert_eq!(clip(b"\xFF\0x"), "\u{fffd}·x");
+        assert_eq!(clip("𝄞".repeat(1000)), "𝄞".repeat(60) + "…");
     }
 }

@@ -3,8 +3,9 @@
 mod crs;
 mod diagnose;
 
-pub(in crate::read) use crs::is_geographic;
+pub(in crate::read) use crs::kind_of;
 
+use super::error::refuse;
 use super::{CoordinateKind, RawLine, RawShape, RawVertex, ReadError, Source};
 use crate::model::{Defect, Defects, Note};
 use ::geojson::{Feature, FeatureCollection, Geometry, GeometryValue, JsonValue, Position};
@@ -46,7 +47,7 @@ pub(super) fn lines(text: &str, source: &mut Source, notes: &mut Vec<Note>) -> R
         other => {
             let help = "give GeoJSON; TopoJSON and Esri JSON can be converted with `ogr2ogr -f GeoJSON out.geojson in.json`";
             let figures = format!("type `{}`; known: {TYPES}", other.chars().take(40).collect::<String>());
-            return Err(content("the document is not GeoJSON", source.label.clone(), figures, help));
+            return Err(refuse("the document is not GeoJSON", source.label.clone(), figures, help));
         }
     };
     crs::read(foreign.as_ref(), source);
@@ -70,18 +71,18 @@ fn parse<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, ::geojson::Err
 
 fn root_type(text: &str, label: &str) -> Result<String, ReadError> {
     if text.trim().is_empty() {
-        return Err(content("the file is empty", label.to_owned(), "no JSON in it".into(), "give a GeoJSON document"));
+        return Err(refuse("the file is empty", label.to_owned(), "no JSON in it", "give a GeoJSON document"));
     }
     match serde_json::from_str::<Root<'_>>(text) {
         Ok(Root { kind: Some(kind) }) => Ok(kind.into_owned()),
         Ok(Root { kind: None }) => {
             let help = "give GeoJSON; Esri JSON can be converted with `ogr2ogr -f GeoJSON out.geojson in.json`";
-            Err(content("the document is not GeoJSON", label.to_owned(), "it has no member `type`".into(), help))
+            Err(refuse("the document is not GeoJSON", label.to_owned(), "it has no member `type`", help))
         }
         Err(error) if error.is_data() => {
             let at = place(label, &error);
-            let figures = "the root must be an object with a text member `type`".into();
-            Err(content("the document is not GeoJSON", at, figures, &format!("give one of: {TYPES}")))
+            let figures = "the root must be an object with a text member `type`";
+            Err(refuse("the document is not GeoJSON", at, figures, &format!("give one of: {TYPES}")))
         }
         Err(error) => Err(syntax(label, &error)),
     }
@@ -100,11 +101,7 @@ fn syntax(label: &str, error: &serde_json::Error) -> ReadError {
     } else {
         ("the file is not valid JSON", "correct the place; NaN, Infinity and comments are not JSON")
     };
-    content(what, place(label, error), figures, help)
-}
-
-fn content(what: &str, at: String, figures: String, help: &str) -> ReadError {
-    ReadError::Content { what: what.into(), at, figures, help: help.into() }
+    refuse(what, place(label, error), figures, help)
 }
 
 /// Turns geometries into raw lines, counting what it passes over.
@@ -246,7 +243,7 @@ impl<'a> Collector<'a> {
             if !self.lines.is_empty() {
                 let figures = format!("breaklines and spot heights: {}, lines: 0, polygons: 0", self.lines.len());
                 let help = "add the ring they lie in, or the centre line, without the property `role`";
-                return Err(content("the file holds breaklines, but no line", self.label.to_owned(), figures, help));
+                return Err(refuse("the file holds breaklines, but no line", self.label.to_owned(), figures, help));
             }
             let (what, figures) = if self.points > 0 {
                 ("the file holds points, but no line", format!("points: {}, lines: 0, polygons: 0", self.points))
@@ -254,7 +251,7 @@ impl<'a> Collector<'a> {
                 ("the file holds no line", format!("features: {}, empty geometries: {}", self.features, self.empty))
             };
             let help = "give a LineString or Polygon; points can be joined to a line in CSV, one row per vertex";
-            return Err(content(what, self.label.to_owned(), figures, help));
+            return Err(refuse(what, self.label.to_owned(), figures, help));
         }
         if self.empty > 0 {
             let message = format!("features and parts without geometry passed over: {}", self.empty);

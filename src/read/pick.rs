@@ -1,6 +1,6 @@
 //! What is meant of a file that holds several things.
 
-use super::terrain::{clip, refuse};
+use super::error::{clip, refuse};
 use super::{ColumnOrder, InputFormat, RawLine, RawShape, ReadError};
 
 /// Classification of ground points in LAS files (ASPRS LAS 1.4, table 9).
@@ -53,7 +53,9 @@ impl Pick {
         wrong.iter().find(|(wrong, _)| *wrong).map_or(Ok(()), |(_, what)| Err(refuse(what, label, figures, help)))
     }
 
-    /// The lines of the names asked for, of a file whose features have names; all if none was asked for.
+    /// The lines of the names asked for, of a file whose features have names; all if none was asked for. Blanks around names do not
+    /// matter, case does: names may differ in nothing else. (In drawings it does not, see `read::dxf`: names of layers there
+    /// never differ in case alone.)
     ///
     /// # Errors
     /// If there is no line of one of the names, or none but breaklines.
@@ -62,7 +64,7 @@ impl Pick {
         if self.features.is_empty() {
             return Ok(lines);
         }
-        let has = |line: &RawLine, name: &str| line.name.as_deref() == Some(name);
+        let has = |line: &RawLine, name: &str| line.name.as_deref().map(str::trim) == Some(name.trim());
         let names = |lines: &[RawLine]| {
             let mut names: Vec<String> = Vec::new();
             for line in lines {

@@ -47,6 +47,16 @@ pub(super) fn for_cells(label: &str, bytes: usize, cells: u64, memory: &Memory) 
     memory.room(bytes as u64 + PER_CELL * cells, || Need { figures, ..need(label, 0) })
 }
 
+/// Whether there is room for points taken out of a cloud.
+#[cfg(feature = "las")]
+pub(super) fn for_points(label: &str, bytes: usize, points: u64, memory: &Memory) -> Result<(), TooLarge> {
+    /// Three doubles in its stretch of the file, and in the whole.
+    const PER_POINT: u64 = 48;
+    let figures = format!("up to {points} points");
+    let help = "cut out the part around the works, or thin the points, e.g. with `pdal translate`";
+    memory.room((bytes as u64).saturating_add(PER_POINT.saturating_mul(points)), || Need { figures, help, ..need(label, 0) })
+}
+
 fn need(label: &str, bytes: u64) -> Need {
     Need { what: "read the file", at: label.to_owned(), figures: format!("its {:.1} MB", bytes as f64 / 1e6), help: SMALLER }
 }

@@ -26,6 +26,18 @@ pub(super) struct Coordinates {
     fractions: bool,
 }
 
+/// How to tell a marker for missing heights in a file.
+fn without_marker(source: &Source, marker: f64) -> String {
+    match source.format {
+        InputFormat::GeoTiff => {
+            format!("declare it in the file, e.g. `gdal_translate -a_nodata {marker} {} declared.tif`", source.label)
+        }
+        InputFormat::Asc => format!("declare it in the head of the file: `NODATA_value {marker}`"),
+        InputFormat::Csv | InputFormat::Las => "take such points out".to_owned(),
+        _ => "take such points out, and the faces that use them".to_owned(),
+    }
+}
+
 impl Default for Coordinates {
     /// Those of no vertices.
     fn default() -> Self {
@@ -68,7 +80,7 @@ impl Coordinates {
                 what: "a point of the ground has a marker for a missing height".into(),
                 at: format!("{}, vertex {} at {}", source.label, i + 1, point(*v)),
                 figures: None,
-                help: "take such points out, and the faces that use them".into(),
+                help: without_marker(source, v.z),
             });
         }
     }

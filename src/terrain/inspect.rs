@@ -2,6 +2,7 @@
 
 use super::place::{counted, point, short};
 use super::{at, spikes};
+use crate::kernel::union::Union;
 use crate::mesh::check::{self, HalfEdges, Soundness};
 use crate::model::{Defect, Defects, Note, Terrain};
 use glam::{DVec2, DVec3};
@@ -69,25 +70,14 @@ fn nearest(terrain: &Terrain, boundary: &[[u32; 2]], place: DVec2) -> u32 {
 
 /// Pieces that share no vertex.
 fn pieces(terrain: &Terrain, notes: &mut Vec<Note>) {
-    let mut leader: Vec<u32> = (0..terrain.vertices.len() as u32).collect();
-    fn find(leader: &mut [u32], mut v: u32) -> u32 {
-        while leader[v as usize] != v {
-            let up = leader[leader[v as usize] as usize];
-            leader[v as usize] = up;
-            v = up;
-        }
-        v
-    }
+    let mut sets = Union::new(terrain.vertices.len());
     for &[a, b, c] in &terrain.triangles {
-        let first = find(&mut leader, a);
-        for v in [b, c] {
-            let other = find(&mut leader, v);
-            leader[other as usize] = first;
-        }
+        sets.join(a, b);
+        sets.join(a, c);
     }
     let mut count = vec![0_usize; terrain.vertices.len()];
     for t in &terrain.triangles {
-        count[find(&mut leader, t[0]) as usize] += 1;
+        count[sets.root(t[0]) as usize] += 1;
     }
     let mut pieces: Vec<(usize, u32)> = count.iter().enumerate().filter(|(_, n)| **n > 0).map(|(v, n)| (*n, v as u32)).collect();
     if pieces.len() > 1 {

@@ -4,14 +4,12 @@ use super::place::Locator;
 use super::{INPUT_LIMIT, MERGE_DISTANCE, Options};
 use crate::kernel::range::range;
 use crate::model::{Breakline, Chain, Defect, Defects, Line, Note, Place, Role};
+use crate::read::terrain::NO_HEIGHT;
 use crate::read::{InputFormat, RawInput, RawLine, RawShape, RawVertex};
 use glam::DVec3;
 
 /// Values programs write where there is no elevation.
 const NO_DATA: [f64; 10] = [-9999.0, -999.999, -999.0, -999.9, -9999.9, -9999.99, -99_999.0, -32_768.0, -32_767.0, -999_999.0];
-
-/// Beyond this an elevation is a marker for "no value" (1e30, ±3.4e38, 1.7e308), whatever the unit.
-const NO_DATA_MAGNITUDE: f64 = 1e20;
 
 /// A marker is only suspicious this far below or above all other elevations, in the input's length unit: a mine may lie at
 /// −999.
@@ -101,7 +99,7 @@ fn elevation_range(raw: &RawInput) -> (f64, f64) {
 
 /// Elevations among these that stand for none, such as −9999 far below all others.
 pub fn no_data_markers(elevations: impl Iterator<Item = f64> + Clone) -> Vec<f64> {
-    let listed = |z: &f64| z.abs() >= NO_DATA_MAGNITUDE || NO_DATA.contains(z);
+    let listed = |z: &f64| z.abs() >= NO_HEIGHT || NO_DATA.contains(z);
     let mut found: Vec<f64> = Vec::new();
     for z in elevations.clone().filter(listed) {
         if !found.contains(&z) && found.len() < NO_DATA.len() {
@@ -116,11 +114,11 @@ pub fn no_data_markers(elevations: impl Iterator<Item = f64> + Clone) -> Vec<f64
 }
 
 fn range_of(elevations: impl Iterator<Item = f64>) -> (f64, f64) {
-    range(elevations.filter(|z| z.abs() < NO_DATA_MAGNITUDE && !NO_DATA.contains(z)))
+    range(elevations.filter(|z| z.abs() < NO_HEIGHT && !NO_DATA.contains(z)))
 }
 
 fn is_no_data(z: f64, (lo, hi): (f64, f64)) -> bool {
-    z.abs() >= NO_DATA_MAGNITUDE || (NO_DATA.contains(&z) && (z < lo - NO_DATA_GAP || z > hi + NO_DATA_GAP))
+    z.abs() >= NO_HEIGHT || (NO_DATA.contains(&z) && (z < lo - NO_DATA_GAP || z > hi + NO_DATA_GAP))
 }
 
 /// Whether a vertex is sound by itself.

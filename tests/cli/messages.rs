@@ -54,7 +54,7 @@ fn everything_wrong_with_the_arguments_is_told_at_once() {
     refused(
         "build road.geojson --slope steep --interval 0 --tolerance -1 --to-elevation nan --csv-order xq -o a.step --lines b",
         2,
-        "error: `q` is no column\n  --> --csv-order xq\n   = help: letters: x or e easting, y or n northing, z elevation, l line \
+        "error: `q` is no column\n  --> --csv-order xq\n   = help: letters: x or e easting, y or n northing, z or h elevation, l line \
          id, p point number, d description, _ skip; e.g. xyz, enz, pnezd\n\
          error: `steep` is not a slope\n  --> --slope steep\n   = help: write `1:1.5`, `2H:1V`, `1in2`, `50%` or `26.57deg`\n\
          error: `nan` is not a finite number\n  --> --to-elevation nan\n   = help: give a number such as 12.5\n\

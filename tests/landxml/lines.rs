@@ -380,6 +380,11 @@ fn which_profile_is_taken() {
         "{message}"
     );
     assert_eq!(vertices(&lines(&two, &["axis/eg"]).unwrap().lines[0]), of_ground);
+    // Both of them: two lines, each name once.
+    let raw = lines(&two, &["axis/grade", "axis/eg", "axis/eg"]).unwrap();
+    let found: Vec<_> = raw.lines.iter().map(vertices).collect();
+    assert_eq!(found, [vertices(&lines(&text, &[]).unwrap().lines[0]), of_ground]);
+    assert!(!codes(&raw.notes).contains(&"landxml-taken"), "{:?}", raw.notes);
     // None.
     let none = with.replace("ProfAlign", "Other");
     let message = lines(&none, &[]).unwrap_err();
@@ -390,6 +395,31 @@ fn which_profile_is_taken() {
     for (a, b) in vertices(&by_length.lines[0]).iter().zip(vertices(&lines(&text, &[]).unwrap().lines[0])) {
         assert!(a.distance(b) < 1e-3);
     }
+}
+
+/// Lines of all kinds are counted together, so that none is taken for a part of another.
+#[test]
+fn places_of_lines_of_several_kinds() {
+    let line = |x: u32, z: u32| format!("<CoordGeom><Line><Start>{x} 0 5</Start><End>{x} 1 {z}</End></Line></CoordGeom>");
+    let text = file(&format!(
+        "<Alignments><Alignment name=\"a\">{}</Alignment></Alignments><PlanFeatures><PlanFeature name=\"b\">{}</PlanFeature></PlanFeatures>",
+        line(0, 5),
+        line(50, 500)
+    ));
+    let raw = lines(&text, &["a", "b"]).unwrap();
+    let line = validate::check(&raw, &validate::Options::default()).unwrap().line;
+    let slope = slopegen::model::Slope::from_ratio(1.0).unwrap();
+    let message = validate::check_steepness(&line, "a.xml", slope).unwrap_err().to_string();
+    assert!(message.contains("--> a.xml, feature 2, vertices 1 to 2\n"), "{message}");
+}
+
+/// Radii of a spiral are told in the unit of its ends.
+#[test]
+fn figures_of_a_spiral_are_in_the_unit_of_the_run() {
+    let spiral = "<Spiral rot=\"cw\" radiusStart=\"2000\" radiusEnd=\"5000\"><Start>0 0 0</Start><End>900000 0 0</End></Spiral>";
+    let text = file(&format!("<Alignments><Alignment name=\"a\"><CoordGeom>{spiral}</CoordGeom></Alignment></Alignments>"));
+    let message = lines(text.replace("\"meter\"", "\"millimeter\""), &[]).unwrap_err();
+    assert!(message.contains("length 0, radii 2 and 5, ends 900.0000 apart"), "{message}");
 }
 
 #[test]

@@ -142,6 +142,16 @@ fn units() {
         assert_eq!(vertices[2], plain[2] * DVec3::new(plan, plan, height), "{units}");
         assert_eq!(codes(&raw.notes).contains(&"landxml-units"), (plan, height) != (1.0, 1.0), "{units}");
     }
+    // Which of the two was changed, and by what.
+    for (units, words) in [
+        ("<Metric linearUnit=\"kilometer\" elevationUnit=\"meter\"/>", "bring both to metres, the plan was multiplied by 1000"),
+        ("<Metric linearUnit=\"millimeter\" elevationUnit=\"meter\"/>", "bring both to metres, the plan was multiplied by 0.001"),
+        ("<Metric linearUnit=\"meter\" elevationUnit=\"feet\"/>", "bring both to metres, the heights were multiplied by 0.3048"),
+        ("<Metric linearUnit=\"millimeter\" elevationUnit=\"feet\"/>", "the plan was multiplied by 0.001, the heights by 0.3048"),
+    ] {
+        let raw = with_units(units).unwrap();
+        assert!(raw.notes.iter().any(|note| note.message.ends_with(words)), "{units}: {:?}", raw.notes);
+    }
     for (units, words) in [
         ("", "does not say its unit"),
         ("<Metric areaUnit=\"squareMeter\"/>", "give `--units m`"),

@@ -32,13 +32,13 @@ fn work_that_would_not_fit_is_refused() {
         (
             "build road.csv --slope 1:1.5 --terrain ground.ply -o o.obj",
             "16MB",
-            "to read the file\n  --> ground.ply\n   = its 8.0 MB would take about 18 MB; 16 MB are allowed, by `--max-memory`\n",
+            "to read the file\n  --> ground.ply\n   = its 8.0 MB would take about 18.0 MB; 16.0 MB are allowed, by `--max-memory`\n",
         ),
         // The mesh that is read beside it: 24 × 160 000 and 12 × 318 402 bytes; 66 for each triangle, and 10 MB.
         (
             "volume ground.ply ground.ply",
             "50MB",
-            "to compare the surfaces\n  --> ground.ply\n   = 636804 triangles would take about 67 MB; 50 MB",
+            "to compare the surfaces\n  --> ground.ply\n   = 636804 triangles would take about 67.4 MB; 50.0 MB",
         ),
         ("diff ground.ply ground.ply", "50MB", "to compare the surfaces\n"),
         ("check ground.ply", "35MB", "to check the mesh\n  --> ground.ply\n   = its 318402 triangles would"),
@@ -61,6 +61,18 @@ fn work_that_would_not_fit_is_refused() {
         assert!(stderr.contains("or raise `--max-memory`"), "{arguments}: {stderr}");
         assert_eq!(site.files(), ["job.toml"], "{arguments}");
     }
+}
+
+/// The program itself is there once, however many jobs run.
+#[test]
+fn jobs_share_what_there_is_beside_the_program() {
+    let site = Site::new(3);
+    let names: Vec<String> = (1..=8).map(|i| format!("job{i}.toml")).collect();
+    for (i, name) in names.iter().enumerate() {
+        fs::write(site.path(name), format!("input = 'road.csv'\nslope = '1:1.5'\noutput = 'j{i}.obj'\n")).unwrap();
+    }
+    let run = site.run(&format!("batch {} --jobs 8 --max-memory 76MB", names.join(" ")));
+    assert_eq!(run.code(), 0, "{}", run.stderr);
 }
 
 #[test]

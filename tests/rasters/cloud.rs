@@ -118,6 +118,25 @@ fn every_version_and_format_gives_the_same_points() {
     assert_eq!(files, 4 * (2 + 2 + 4 + 6 + 11));
 }
 
+/// 48 bytes for each point that is taken, before they are taken: 225 of 300 here. What is in a packed file shows only when it is
+/// unpacked.
+#[test]
+fn memory_is_asked_for() {
+    use slopegen::model::{LimitedBy, Memory};
+    use slopegen::read::terrain::{TerrainOptions, parse_terrain};
+    for (packed, most) in [(false, 225), (true, 300)] {
+        let file = Cloud::new((1, 2), 1, packed).make(&site());
+        let with = |bytes: usize| {
+            let memory = Memory::limited(10_000_000 + bytes as u64, LimitedBy::Option);
+            let options = TerrainOptions { memory, ..TerrainOptions::of(InputFormat::Las) };
+            parse_terrain("a.las", &file, &options).map(|_| ()).map_err(|error| error.to_string())
+        };
+        assert_eq!(with(file.len() + 48 * most), Ok(()));
+        let message = with(file.len() + 48 * most - 1).unwrap_err();
+        assert!(message.contains(&format!("--> a.las\n   = up to {most} points would take about 10.0 MB")), "{message}");
+    }
+}
+
 #[test]
 fn classes_are_taken_as_asked() {
     for format in [0, 6] {

@@ -143,8 +143,12 @@ fn markers_stand_for_no_height() {
             assert!(*z == expected || z.is_nan() && expected.is_nan(), "{text}: {z}");
         }
     }
+    // Not declared, and not so large that no height can be meant: how to declare it.
+    let raw = read(&Maker::new(Kind::F32).make(holed(-9999.0))).unwrap();
+    let message = slopegen::terrain::prepare(raw).unwrap_err().to_string();
+    assert!(message.ends_with("help: declare it in the file, e.g. `gdal_translate -a_nodata -9999 a declared.tif`"), "{message}");
     // Not declared, and yet none.
-    for odd in [f64::from(f32::MIN), f64::INFINITY, f64::NAN] {
+    for odd in [f64::from(f32::MIN), 1e25, f64::INFINITY, f64::NAN] {
         let found = grid(read(&Maker::new(Kind::F32).make(holed(odd))).unwrap());
         assert!(found.heights[3 * 5 + 2].is_nan());
     }

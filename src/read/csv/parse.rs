@@ -1,9 +1,9 @@
 //! Rows → records: splits them into fields, reads the numbers and collects what is wrong.
 
-use super::content;
 use crate::model::{Defect, Defects};
 use crate::read::ReadError;
 use crate::read::columns::Columns;
+use crate::read::error::{clip, refuse};
 use crate::read::number::{self, Field, Mark};
 use crate::read::sniff::Delimiter;
 use std::collections::HashMap;
@@ -49,13 +49,13 @@ pub(super) fn parse(
             Ok(false) => break,
             Err(cause) => {
                 let at = format!("{label}, row {row}");
-                return Err(content("the row cannot be split into fields", &at, &cause.to_string(), "correct the row"));
+                return Err(refuse("the row cannot be split into fields", at, cause.to_string(), "correct the row"));
             }
         }
         if record.as_slice().contains(&b'\n') {
             let at = format!("{label}, row {row}");
             let help = "close the quotes, or take them out";
-            return Err(content("a quoted field runs over the end of its row", &at, "quotes are not closed", help));
+            return Err(refuse("a quoted field runs over the end of its row", at, "quotes are not closed", help));
         }
         let Some((x, y, z)) = checks.read(&record, row) else { continue };
         let mut id = 0;
@@ -79,7 +79,7 @@ pub(super) fn parse(
     }
     if let (Some((row, a)), Some((other, b))) = (&checks.point, &checks.comma) {
         let (figures, at) = (format!("`{a}` in row {row}, `{b}` in row {other}"), format!("{label}, row {}", row.max(other)));
-        return Err(content("decimal points and decimal commas are mixed", &at, &figures, "write all numbers with one mark"));
+        return Err(refuse("decimal points and decimal commas are mixed", at, figures, "write all numbers with one mark"));
     }
     let comma = checks.comma.is_some();
     checks.defects.into_result().map_err(ReadError::Records)?;
@@ -199,16 +199,7 @@ impl Checks<'_> {
     }
 }
 
-/// A text short enough for a message.
-pub(super) fn clip(text: &str) -> String {
-    const LONGEST: usize = 60;
-    match text.char_indices().nth(LONGEST) {
-        Some((at, _)) => format!("{}…", &text[..at]),
-        None => text.to_owned(),
-    }
-}
-
 fn show(record: &::csv::ByteRecord) -> String {
     let fields: Vec<&str> = (0..record.len().min(12)).map(|i| text_of(record, i)).collect();
-    clip(&fields.join(" | "))
+    clip(fields.join(" | "))
 }

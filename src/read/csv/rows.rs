@@ -23,13 +23,21 @@ pub(super) fn rows(text: &str) -> impl Iterator<Item = (u32, &str)> {
     })
 }
 
+/// What spreadsheets write for a missing or broken value, in English and German: a field, not a comment.
+const BROKEN: [&str; 12] =
+    ["#N/A", "#NA", "#NV", "#REF!", "#NUM!", "#VALUE!", "#DIV/0!", "#NAME?", "#NULL!", "#BEZUG!", "#ZAHL!", "#WERT!"];
+
 /// Whether a row is a comment. A semicolon starts one only where it is not the delimiter.
 pub(super) fn is_comment(row: &str, delimiter: Option<Delimiter>) -> bool {
     let row = row.trim_start();
-    if let Some(rest) = row.strip_prefix('#') {
-        // What spreadsheets write for a missing or broken value is a field, not a comment.
-        let word = rest.get(..3).unwrap_or(rest).to_ascii_uppercase();
-        return !["N/A", "NA,", "NA;", "VAL", "REF", "DIV", "NUM"].contains(&word.as_str());
+    if row.starts_with('#') {
+        let end = |c: char| match delimiter {
+            Some(Delimiter::Blanks) => c == ' ' || c == '\t',
+            Some(delimiter) => c == char::from(delimiter.byte()),
+            None => matches!(c, ',' | ';' | '\t' | ' '),
+        };
+        let field = row.split(end).next().unwrap_or(row).trim_end();
+        return !BROKEN.iter().any(|word| word.eq_ignore_ascii_case(field));
     }
     row.starts_with("//") || row.starts_with('%') || (row.starts_with(';') && delimiter != Some(Delimiter::Semicolon))
 }
@@ -79,6 +87,34 @@ pub(super) fn clean(text: &str, delimiter: Delimiter, header: u32) -> (String, V
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn comments_and_broken_values() {
+        for comment in [
+            "#REFERENCE: mark 12",
+            "#Num 1,2,3",
+            "#Values in m",
+            "#Divided",
+            "# N/A",
+            "#N/A values follow",
+            "#3,1,2,3",
+            " %",
+            "//1",
+        ] {
+            assert!(is_comment(comment, Some(Delimiter::Comma)), "{comment}");
+        }
+        for (row, delimiter) in [
+            ("#REF!,1,2", Delimiter::Comma),
+            ("#value!;1;2", Delimiter::Semicolon),
+            ("  #N/A 1 2", Delimiter::Blanks),
+            ("#DIV/0!\t1\t2", Delimiter::Tab),
+            ("#NUM! ,1", Delimiter::Comma),
+            ("#na", Delimiter::Comma),
+        ] {
+            assert!(!is_comment(row, Some(delimiter)) && !is_comment(row, None), "{row}");
+        }
+        assert!(is_comment(";1;2", Some(Delimiter::Comma)) && !is_comment(";1;2", Some(Delimiter::Semicolon)));
+    }
 
     /// Page breaks and no-break spaces stand alone in rows of printed lists and of web pages.
     #[test]

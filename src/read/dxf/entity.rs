@@ -3,7 +3,7 @@
 use super::pairs::{Pair, Pairs, Place};
 use super::transform::{Insertion, sin_cos};
 use crate::read::ReadError;
-use crate::read::terrain::refuse;
+use crate::read::error::refuse;
 use glam::{DVec2, DVec3};
 
 /// What all entities have.
@@ -52,11 +52,33 @@ pub(super) fn other<'a>(pairs: &mut Pairs<'a>) -> Result<Common<'a>, ReadError> 
     Ok(common)
 }
 
-/// Up to four points: POINT (one), LINE (two), 3DFACE (four).
+/// Coordinates that are not there yet; none that is read is NaN.
+const NOWHERE: DVec3 = DVec3::NAN;
+
+/// A point whose coordinates have been read. Without elevation it lies at 0, as all of a drawing in two dimensions.
+///
+/// # Errors
+/// It has no `x` or no `y`.
 #[inline]
-pub(super) fn corners<'a, const N: usize>(pairs: &mut Pairs<'a>) -> Result<(Common<'a>, [DVec3; N]), ReadError> {
+fn located(point: DVec3, label: &str, place: Place) -> Result<DVec3, ReadError> {
+    if point.x.is_nan() || point.y.is_nan() {
+        let figures = match (point.x.is_nan(), point.y.is_nan()) {
+            (true, true) => "neither x (group codes 10 to 13) nor y (20 to 23)",
+            (true, false) => "no x (group codes 10 to 13)",
+            _ => "no y (group codes 20 to 23)",
+        };
+        let help = "write the drawing again, or take the entity out";
+        return Err(refuse("a point of the drawing lacks coordinates", place.of(label), figures, help));
+    }
+    Ok(if point.z.is_nan() { point.with_z(0.0) } else { point })
+}
+
+/// Up to four points: POINT (one), LINE (two), 3DFACE (four). A face without fourth corner is a triangle: its third is repeated
+/// (Autodesk, "DXF Reference", 3DFACE).
+#[inline]
+pub(super) fn corners<'a, const N: usize>(pairs: &mut Pairs<'a>, place: Place) -> Result<(Common<'a>, [DVec3; N]), ReadError> {
     let mut common = Common::default();
-    let mut points = [DVec3::ZERO; N];
+    let mut points = [NOWHERE; N];
     while let Some(pair) = pairs.field()? {
         let (axis, i) = (pair.code / 10, (pair.code % 10) as usize);
         match points.get_mut(i) {
@@ -65,6 +87,12 @@ pub(super) fn corners<'a, const N: usize>(pairs: &mut Pairs<'a>) -> Result<(Comm
             Some(point) if axis == 3 => point.z = pairs.number(&pair)?,
             _ => common.take(pairs, &pair)?,
         }
+    }
+    if N == 4 && points[N - 1].to_array().iter().all(|c| c.is_nan()) {
+        points[N - 1] = points[N - 2];
+    }
+    for point in &mut points {
+        *point = located(*point, pairs.label, place)?;
     }
     Ok((common, points))
 }
@@ -125,7 +153,7 @@ pub(super) fn lwpolyline<'a>(pairs: &mut Pairs<'a>) -> Result<(Common<'a>, Polyl
     while let Some(pair) = pairs.field()? {
         match (pair.code, line.vertices.last_mut()) {
             (10, _) => {
-                let at = DVec3::new(pairs.number(&pair)?, 0.0, 0.0);
+                let at = NOWHERE.with_x(pairs.number(&pair)?);
                 line.vertices.push(Vertex { at, bulge: 0.0, place: pair.place });
             }
             (20, Some(vertex)) => vertex.at.y = pairs.number(&pair)?,
@@ -136,7 +164,9 @@ pub(super) fn lwpolyline<'a>(pairs: &mut Pairs<'a>) -> Result<(Common<'a>, Polyl
             _ => common.take(pairs, &pair)?,
         }
     }
-    line.vertices.iter_mut().for_each(|vertex| vertex.at.z = elevation);
+    for vertex in &mut line.vertices {
+        vertex.at = located(vertex.at.with_z(elevation), pairs.label, vertex.place)?;
+    }
     line.promised = promised.filter(|&n| usize::try_from(n) != Ok(line.vertices.len()));
     Ok((common, line))
 }
@@ -224,13 +254,13 @@ impl<'a> Head<'a> {
     }
 
     pub(super) fn line(&self, pairs: &mut Pairs<'a>) -> Result<Polyline, ReadError> {
-        let planar = self.flags & 8 == 0;
+        let (planar, label) = (self.flags & 8 == 0, pairs.label);
         let mut line = Polyline { planar, closed: self.flags & 1 != 0, ..Polyline::default() };
         self.vertices(pairs, |part| {
             // Control points of splines are not on the line.
             if part.flags & 16 == 0 {
                 let bulge = if planar { part.bulge } else { 0.0 };
-                line.vertices.push(Vertex { at: part.at, bulge, place: part.place });
+                line.vertices.push(Vertex { at: part.point(label)?, bulge, place: part.place });
             }
             Ok(())
         })?;
@@ -257,7 +287,7 @@ impl<'a> Head<'a> {
         let (mut points, mut faces) = (Vec::new(), Vec::new());
         self.vertices(pairs, |part| {
             if part.flags & 64 != 0 {
-                points.push(part.at);
+                points.push(part.point(label)?);
                 return Ok(());
             }
             // A negative number hides the edge that begins there; 0 is no corner.
@@ -281,10 +311,10 @@ impl<'a> Head<'a> {
 
     /// Faces of a net.
     pub(super) fn net(&self, pairs: &mut Pairs<'a>) -> Result<(Vec<DVec3>, Vec<[u32; 4]>), ReadError> {
-        let mut points = Vec::new();
+        let (mut points, label) = (Vec::new(), pairs.label);
         self.vertices(pairs, |part| {
             if part.flags & 16 == 0 {
-                points.push(part.at);
+                points.push(part.point(label)?);
             }
             Ok(())
         })?;
@@ -309,6 +339,7 @@ impl<'a> Head<'a> {
 /// A VERTEX.
 struct Part {
     place: Place,
+    /// Faces of polyface meshes need none.
     at: DVec3,
     bulge: f64,
     flags: i64,
@@ -316,9 +347,15 @@ struct Part {
 }
 
 impl Part {
+    /// Where it is.
+    #[inline]
+    fn point(&self, label: &str) -> Result<DVec3, ReadError> {
+        located(self.at, label, self.place)
+    }
+
     #[inline]
     fn read(pairs: &mut Pairs<'_>, place: Place) -> Result<Self, ReadError> {
-        let mut part = Self { place, at: DVec3::ZERO, bulge: 0.0, flags: 0, corners: [0; 4] };
+        let mut part = Self { place, at: NOWHERE, bulge: 0.0, flags: 0, corners: [0; 4] };
         while let Some(pair) = pairs.field()? {
             match pair.code {
                 10 => {

@@ -5,7 +5,8 @@ use super::names::counted;
 use super::walk::{Placed, Shape};
 use crate::model::Note;
 use crate::read::ReadError;
-use crate::read::terrain::{Faces, RawGround, refuse};
+use crate::read::error::refuse;
+use crate::read::terrain::{Faces, RawGround};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 

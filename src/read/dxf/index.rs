@@ -5,7 +5,7 @@ use super::layers::Layers;
 use super::names::{decode, key};
 use super::pairs::{Pair, Pairs};
 use crate::read::ReadError;
-use crate::read::terrain::{clip, refuse};
+use crate::read::error::{clip, refuse};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 

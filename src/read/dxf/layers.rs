@@ -2,7 +2,7 @@
 
 use super::names::{counted, decode, key, listed};
 use crate::read::ReadError;
-use crate::read::terrain::refuse;
+use crate::read::error::refuse;
 use rustc_hash::FxHashMap;
 
 /// A number of [`Layers`].

@@ -9,7 +9,7 @@ use super::pairs::Place;
 use super::transform::stretch;
 use super::walk::{Placed, Shape};
 use crate::model::Note;
-use crate::read::terrain::refuse;
+use crate::read::error::refuse;
 use crate::read::{RawLine, RawShape, RawVertex, ReadError};
 use glam::{DAffine3, DVec3};
 use std::collections::BTreeMap;

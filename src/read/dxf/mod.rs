@@ -18,9 +18,10 @@ mod walk;
 
 pub(super) use pairs::SENTINEL;
 
-use super::terrain::{RawFaces, RawGround, Said, refuse};
+use super::terrain::{RawFaces, RawGround, Said};
 use super::{CoordinateKind, Pick, RawLine, ReadError, ReadOptions, Source};
 use crate::model::{LengthUnit, Note};
+use crate::read::error::refuse;
 use glam::DVec3;
 use index::Index;
 use layers::{LayerId, Layers};
@@ -42,7 +43,11 @@ pub(super) fn lines(
     check(&label, bytes)?;
     let mut layers = Layers::new(&options.pick.layers);
     let index = Index::read(&label, bytes, &mut layers)?;
-    let mut found = lines::Lines::new(&label, options.chord);
+    let mut told = Vec::new();
+    let unit = unit(&index, &mut told);
+    // The chord is in the unit of the run, if one was asked for.
+    let chord = options.chord * options.unit.zip(unit).map_or(1.0, |(asked, unit)| asked.per(unit));
+    let mut found = lines::Lines::new(&label, chord);
     let passed = walk::walk(&index, &mut layers, Want::Lines, &mut |placed| found.take(placed))?;
     layers.check(&label)?;
     let lines = found.finish(&layers, &options.pick.features, notes)?;
@@ -52,7 +57,8 @@ pub(super) fn lines(
         return Err(refuse("the drawing has no lines to read", label.as_str(), layers.holdings(), help));
     }
     passed.tell(notes);
-    source.unit = unit(&index, notes);
+    notes.append(&mut told);
+    source.unit = unit;
     source.kind = CoordinateKind::Unknown;
     Ok(lines)
 }

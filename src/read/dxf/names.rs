@@ -1,11 +1,7 @@
 //! Names of layers and blocks: bytes → text.
 
 pub(super) use crate::model::digits::counted;
-/// Letters 0x80 to 0x9F of Windows-1252; the five that are not assigned stay control characters.
-const WINDOWS_1252: [char; 32] = [
-    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', '\u{90}', '‘', '’', '“', '”',
-    '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
-];
+use crate::read::decode::windows_1252;
 
 /// Longest name, in letters: that of CAD programs.
 const LONGEST: usize = 255;
@@ -15,13 +11,7 @@ const LONGEST: usize = 255;
 pub(super) fn decode(bytes: &[u8]) -> String {
     let text = match std::str::from_utf8(bytes) {
         Ok(text) => text.to_owned(),
-        Err(_) => bytes
-            .iter()
-            .map(|&byte| match byte {
-                0x80..=0x9F => WINDOWS_1252[usize::from(byte - 0x80)],
-                _ => char::from(byte),
-            })
-            .collect(),
+        Err(_) => bytes.iter().copied().map(windows_1252).collect(),
     };
     let text = if text.contains("\\U+") { unescape(&text) } else { text };
     let clean = |text: &str| !text.chars().any(char::is_control) && text.len() <= LONGEST;

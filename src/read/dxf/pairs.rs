@@ -2,7 +2,7 @@
 
 use crate::read::ReadError;
 use crate::read::decimal;
-use crate::read::terrain::{clip, refuse};
+use crate::read::error::{clip, refuse};
 use std::borrow::Cow;
 
 /// First bytes of a binary drawing.

@@ -6,7 +6,7 @@ use super::layers::{LayerId, Layers};
 use super::pairs::{Pairs, Place};
 use super::transform::axes;
 use crate::read::ReadError;
-use crate::read::terrain::refuse;
+use crate::read::error::refuse;
 use glam::{DAffine3, DVec3};
 use std::collections::BTreeMap;
 
@@ -122,15 +122,15 @@ impl<'a> Walk<'_, 'a> {
     fn entity(&mut self, kind: &'a [u8], place: Place, pairs: &mut Pairs<'a>, around: Around) -> Result<(), ReadError> {
         match (kind, self.want) {
             (b"3DFACE", Want::Ground) => {
-                let (common, corners) = entity::corners(pairs)?;
+                let (common, corners) = entity::corners(pairs, place)?;
                 self.shape(&common, place, around, || Shape::Face(corners))
             }
             (b"POINT", Want::Ground) => {
-                let (common, [point]) = entity::corners(pairs)?;
+                let (common, [point]) = entity::corners(pairs, place)?;
                 self.shape(&common, place, around, || Shape::Point(point))
             }
             (b"LINE", Want::Lines) => {
-                let (common, ends) = entity::corners(pairs)?;
+                let (common, ends) = entity::corners(pairs, place)?;
                 self.shape(&common, place, around, || Shape::Segment(ends))
             }
             (b"ARC", Want::Lines) => {

@@ -1,7 +1,7 @@
 //! What is wrong with a GeoJSON document the parser refused: looked up in a second, slower pass over plain JSON, so that
 //! the message can name features and vertices, and all of them at once.
 
-use super::{ReadError, content, place, syntax};
+use super::{ReadError, place, refuse, syntax};
 use crate::model::{Defect, Defects};
 use serde_json::Value;
 
@@ -50,7 +50,7 @@ pub(super) fn explain(text: &str, label: &str, error: &geojson::Error) -> ReadEr
         other => (label.to_owned(), other.to_string()),
     };
     let figures = figures.split(" at line ").next().unwrap_or("").to_owned();
-    content("the document is not valid GeoJSON", at, figures, "correct the place, or write the file again with `ogr2ogr`")
+    refuse("the document is not valid GeoJSON", at, figures, "correct the place, or write the file again with `ogr2ogr`")
 }
 
 fn geometry(value: &Value, label: &str, feature: Option<u32>, defects: &mut Defects) {

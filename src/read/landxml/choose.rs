@@ -3,7 +3,7 @@
 use super::features::{Feature, Features, Heights, Kind};
 use super::surface::LISTED;
 use crate::model::Note;
-use crate::read::terrain::{clip, refuse};
+use crate::read::error::{clip, refuse};
 use crate::read::{Pick, ReadError};
 
 /// A line to be taken, with the profile asked for.
@@ -37,11 +37,12 @@ pub(super) fn choose<'f>(
         ));
     }
     let chosen = if pick.features.is_empty() { by_kind(label, found)? } else { by_name(label, found, pick)? };
+    // Those taken with several profiles stand one after the other.
+    let taken: Vec<&Feature> =
+        chosen.chunk_by(|a, b| std::ptr::eq(a.feature, b.feature)).filter_map(|run| run.first()).map(|c| c.feature).collect();
     let left: Vec<String> = Kind::ALL
         .into_iter()
-        .map(|kind| {
-            (kind, found.iter().filter(|f| f.kind == kind).count() - chosen.iter().filter(|c| c.feature.kind == kind).count())
-        })
+        .map(|kind| (kind, found.iter().filter(|f| f.kind == kind).count() - taken.iter().filter(|f| f.kind == kind).count()))
         .filter(|(_, count)| *count > 0)
         .map(|(kind, count)| format!("{count} {}", kind.name(count)))
         .chain(
@@ -50,9 +51,9 @@ pub(super) fn choose<'f>(
         )
         .collect();
     if !left.is_empty() {
-        let taken: Vec<String> = chosen.iter().take(LISTED).map(|c| c.feature.text()).collect();
-        let more = if chosen.len() > LISTED { format!(" and {} more", chosen.len() - LISTED) } else { String::new() };
-        let message = format!("taken from the file: {}{more}; left: {}", taken.join(", "), left.join(", "));
+        let names: Vec<String> = taken.iter().take(LISTED).map(|feature| feature.text()).collect();
+        let more = if taken.len() > LISTED { format!(" and {} more", taken.len() - LISTED) } else { String::new() };
+        let message = format!("taken from the file: {}{more}; left: {}", names.join(", "), left.join(", "));
         notes.push(Note::new("landxml-taken", message));
     }
     Ok(chosen)
@@ -71,19 +72,28 @@ fn by_kind<'f>(label: &str, found: &'f [Feature]) -> Result<Vec<Chosen<'f>>, Rea
     Ok(kind.into_iter().flat_map(of).map(|feature| Chosen { feature, profile: None }).collect())
 }
 
+/// The lines of the names asked for, in the order of the file; an alignment once for each of its profiles that is.
 fn by_name<'f>(label: &str, found: &'f [Feature], pick: &Pick) -> Result<Vec<Chosen<'f>>, ReadError> {
     let mut used = vec![false; pick.features.len()];
     let mut chosen = Vec::new();
     for feature in found {
-        let Some(name) = feature.name.as_deref() else { continue };
+        let Some(name) = feature.name.as_deref().map(str::trim) else { continue };
+        let before = chosen.len();
         for (i, wanted) in pick.features.iter().enumerate() {
             let wanted = wanted.trim();
             let own = || wanted.strip_prefix(name).and_then(|rest| rest.strip_prefix('/'));
-            let profile = own().and_then(|own| feature.road.profiles.iter().find(|profile| profile.name.as_deref() == Some(own)));
+            let profile = own().and_then(|own| {
+                feature.road.profiles.iter().find(|profile| profile.name.as_deref().map(str::trim) == Some(own.trim()))
+            });
             if wanted == name || profile.is_some() {
                 used[i] = true;
-                chosen.push(Chosen { feature, profile });
-                break;
+                let same = |taken: &Chosen<'_>| match (taken.profile, profile) {
+                    (Some(a), Some(b)) => std::ptr::eq(a, b),
+                    (a, b) => a.is_none() && b.is_none(),
+                };
+                if !chosen[before..].iter().any(same) {
+                    chosen.push(Chosen { feature, profile });
+                }
             }
         }
     }

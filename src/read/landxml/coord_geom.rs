@@ -3,7 +3,7 @@
 use super::numbers::{few, fields, list};
 use super::xml::{Tag, Xml};
 use crate::read::ReadError;
-use crate::read::terrain::clip;
+use crate::read::error::clip;
 use glam::DVec2;
 
 /// A point as given: easting and northing, and its height if it has one; or the name of a point.

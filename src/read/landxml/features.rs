@@ -5,7 +5,7 @@ use super::numbers::{few, list};
 use super::walk::{Open, Visitor, named};
 use super::xml::{Tag, Xml};
 use crate::read::ReadError;
-use crate::read::terrain::clip;
+use crate::read::error::clip;
 use rustc_hash::FxHashMap;
 
 /// What a line is in its file.
@@ -42,6 +42,8 @@ pub(super) struct Feature {
     pub(super) name: Option<String>,
     /// Counted from 1 among those of its kind.
     pub(super) number: u32,
+    /// Counted from 1 among all lines of the file.
+    pub(super) position: u32,
     pub(super) at: usize,
     pub(super) parts: Vec<Part>,
     pub(super) road: Road,
@@ -112,7 +114,8 @@ impl Features {
     fn add(&mut self, kind: Kind, name: Option<String>, at: usize, parts: Vec<Part>, road: Road) {
         // The last of its kind is mostly the last of all.
         let before = self.found.iter().rev().find(|feature| feature.kind == kind).map_or(0, |feature| feature.number);
-        self.found.push(Feature { kind, name, number: before.saturating_add(1), at, parts, road });
+        let position = u32::try_from(self.found.len() + 1).unwrap_or(u32::MAX);
+        self.found.push(Feature { kind, name, number: before.saturating_add(1), position, at, parts, road });
     }
 
     fn named_point<'a>(&mut self, xml: &mut Xml<'a>, tag: &Tag<'a>) -> Result<(), ReadError> {

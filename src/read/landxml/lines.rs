@@ -7,7 +7,7 @@ use super::units::Scale;
 use super::xml::place;
 use crate::model::Note;
 use crate::read::alignment::{self, Curve, Element, MOST_POINTS, Misfit, Piece, Profile, ProfileError, Pvi, TooMany};
-use crate::read::terrain::{clip, refuse};
+use crate::read::error::{clip, refuse};
 use crate::read::{RawLine, RawShape, RawVertex, ReadError};
 use glam::DVec2;
 
@@ -92,7 +92,7 @@ impl<'a> Maker<'a> {
             notes.push(Note::new("landxml-misfit", message));
         }
         let raw =
-            RawLine { name: feature.name.clone(), feature: Some(feature.number), shape: RawShape::Line, vertices: Vec::new() };
+            RawLine { name: feature.name.clone(), feature: Some(feature.position), shape: RawShape::Line, vertices: Vec::new() };
         let profile = self.profile(chosen, &runs)?;
         let mut lines = Vec::new();
         for run in &runs {
@@ -241,6 +241,7 @@ impl<'a> Maker<'a> {
         let curvature = radii.map(|radius| turn / (radius * self.scale.plan));
         let length = self.declared(part).unwrap_or(0.0);
         let Some((element, misfit)) = Element::clothoid(from, to, length, curvature) else {
+            let radii = radii.map(|radius| radius * self.scale.plan);
             let figures = format!("length {length}, radii {} and {}, ends {:.4} apart", radii[0], radii[1], from.distance(to));
             return Err(self.refuse("no clothoid goes through a spiral", part.at, figures, "check its points, radii and length"));
         };

@@ -15,9 +15,10 @@ mod units;
 mod walk;
 mod xml;
 
-use super::terrain::{RawFaces, RawGround, Said, refuse};
+use super::terrain::{RawFaces, RawGround, Said};
 use super::{ColumnOrder, Held, Pick, RawLine, ReadError, ReadOptions, Source};
 use crate::model::{LengthUnit, Note};
+use crate::read::error::refuse;
 use features::Features;
 use glam::DVec3;
 use surface::Surfaces;

@@ -1,7 +1,7 @@
 //! Lists of numbers in the content of elements.
 
 use super::xml::Xml;
-use crate::read::terrain::clip;
+use crate::read::error::clip;
 use crate::read::{ReadError, decimal};
 
 /// The numbers of a text, separated by blanks.

@@ -8,7 +8,8 @@ use super::xml::{Tag, Xml, place};
 use crate::kernel::sum::Sum;
 use crate::model::Note;
 use crate::read::ReadError;
-use crate::read::terrain::{RawFaces, clip, refuse};
+use crate::read::error::{clip, refuse};
+use crate::read::terrain::RawFaces;
 use glam::DVec3;
 
 /// How many things a message lists.

@@ -2,8 +2,8 @@
 
 use super::xml::{Tag, Xml};
 use crate::model::{LengthUnit, Note};
-use crate::read::geojson::is_geographic;
-use crate::read::terrain::refuse;
+use crate::read::error::refuse;
+use crate::read::geojson::kind_of;
 use crate::read::{CoordinateKind, ReadError};
 
 /// Square feet in an acre, and square metres in a hectare.
@@ -90,7 +90,12 @@ impl Header {
             height = of_other * if feet { 1.0 } else { other.per(unit) };
         }
         if height != plan {
-            let message = format!("heights are in another unit than the plan; they were multiplied by {}", height / plan);
+            let factors = match (plan, height) {
+                (1.0, height) => format!("the heights were multiplied by {height}"),
+                (plan, 1.0) => format!("the plan was multiplied by {plan}"),
+                (plan, height) => format!("the plan was multiplied by {plan}, the heights by {height}"),
+            };
+            let message = format!("heights are in another unit than the plan; to bring both to {}, {factors}", unit.plural());
             notes.push(Note::new("landxml-units", message));
         } else if plan != 1.0 {
             notes.push(Note::new(
@@ -120,12 +125,11 @@ impl Header {
 
     /// Whether the reference system counts in degrees.
     pub(super) fn kind(&self) -> CoordinateKind {
-        match &self.crs {
-            None => CoordinateKind::Unknown,
-            Some(name) if is_geographic(name) => CoordinateKind::Degrees,
+        let Some(name) = &self.crs else { return CoordinateKind::Unknown };
+        match kind_of(name) {
             // A name may be any text here.
-            Some(name) if name.starts_with("EPSG:") => CoordinateKind::Lengths,
-            Some(_) => CoordinateKind::Unknown,
+            CoordinateKind::Lengths if !name.starts_with("EPSG:") => CoordinateKind::Unknown,
+            kind => kind,
         }
     }
 }
@@ -137,7 +141,7 @@ fn declared<'a>(xml: &Xml<'a>, tag: &Tag<'a>, attribute: &str) -> Result<Option<
         None => Err(xml.refuse(
             "the unit of length of the file is not known",
             tag.at,
-            format!("{attribute}=\"{}\"", crate::read::terrain::clip(word.as_bytes())),
+            format!("{attribute}=\"{}\"", crate::read::error::clip(word.as_bytes())),
             "export the file in metres (meter), feet (foot) or US survey feet (USSurveyFoot)",
         )),
     }

@@ -3,7 +3,7 @@
 use super::units::Header;
 use super::xml::{Step, Tag, Xml};
 use crate::read::ReadError;
-use crate::read::terrain::clip;
+use crate::read::error::clip;
 use std::cell::OnceCell;
 
 /// Letters of a name that are kept. Names come with every line, and a file can have many lines of one element.

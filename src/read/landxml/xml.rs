@@ -4,7 +4,7 @@
 //! refused if it does: an entity can stand for more text than any memory holds.
 
 use crate::model::Note;
-use crate::read::terrain::{clip, refuse};
+use crate::read::error::{clip, refuse};
 use crate::read::{ReadError, decode};
 use quick_xml::XmlVersion;
 use quick_xml::escape::resolve_predefined_entity;
@@ -17,13 +17,6 @@ const DEEPEST: usize = 100;
 
 /// How far into a file its declaration is looked for.
 const HEAD: usize = 256;
-
-/// Letters of Windows-1252 at 0x80 to 0x9F, where ISO-8859-1 has control characters (mapping of the Unicode Consortium,
-/// VENDORS/MICSFT/WINDOWS/CP1252.TXT). Bytes without a letter stay what they are.
-const WINDOWS_1252: [char; 32] = [
-    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', '\u{90}', '‘', '’', '“', '”',
-    '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
-];
 
 /// The text of an XML file: by its byte order mark, else by its declaration, else UTF-8, else ISO-8859-1 with a note.
 ///
@@ -44,11 +37,7 @@ pub(super) fn text<'a>(label: &str, bytes: &'a [u8], notes: &mut Vec<Note>) -> R
     let latin =
         [&b"iso-8859-1"[..], b"iso8859-1", b"latin1", b"windows-1252", b"cp1252"].into_iter().any(says) && !says(b"iso-8859-15");
     if latin && !bytes.is_ascii() {
-        let letter = |&byte: &u8| match byte {
-            0x80..=0x9F => WINDOWS_1252[usize::from(byte - 0x80)],
-            _ => char::from(byte),
-        };
-        return Ok(Cow::Owned(bytes.iter().map(letter).collect()));
+        return Ok(Cow::Owned(bytes.iter().copied().map(decode::windows_1252).collect()));
     }
     decode::text(label, bytes, notes)
 }

@@ -1,15 +1,13 @@
 //! ESRI ASCII grid.
 
-use super::{RawGrid, RawGround, Said, clip, refuse};
+use super::{NO_HEIGHT, RawGrid, RawGround, Said};
 use crate::model::Note;
+use crate::read::error::{clip, refuse};
 use crate::read::{ReadError, decimal};
 use glam::DVec2;
 
 /// Elevation that stands for none in a grid that does not say which: the default of the format.
 const NO_DATA: f64 = -9999.0;
-
-/// Magnitude from which an elevation is none: markers such as −3.4·10³⁸ are often printed with fewer digits than they have.
-const NO_HEIGHT: f64 = 1e30;
 
 pub(super) fn read(label: &str, bytes: &[u8], notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);

@@ -16,7 +16,7 @@ const SAME_UNIT: f64 = 1e-7;
 pub(super) struct GeoKeys {
     /// Whether values stand at points and not for areas.
     pub(super) at_points: bool,
-    /// Plan coordinates: `None` if nothing is said.
+    /// What plan coordinates are.
     pub(super) model: Model,
     /// The reference system: an EPSG code, else its name.
     pub(super) crs: Option<String>,

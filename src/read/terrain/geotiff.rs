@@ -3,11 +3,11 @@
 //! Read by own code down to the compressions: every size in the file is checked against the bytes that are there before room
 //! is made for it, and nothing is unpacked beyond what the image needs.
 
-#[cfg(not(feature = "geotiff"))]
-use super::refuse;
 use super::{RawGround, Said};
 use crate::model::{Memory, Note};
 use crate::read::ReadError;
+#[cfg(not(feature = "geotiff"))]
+use crate::read::error::refuse;
 
 #[cfg(feature = "geotiff")]
 mod directory;

@@ -1,6 +1,6 @@
 //! What a ground file is, by its first bytes.
 
-use super::{clip, refuse};
+use crate::read::error::{clip, refuse};
 use crate::read::{InputFormat, ReadError};
 
 /// What a file looks like.

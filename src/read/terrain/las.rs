@@ -4,7 +4,7 @@
 //! files are unpacked by the package `laz`.
 
 use super::{RawGround, Said};
-use crate::model::Note;
+use crate::model::{Memory, Note};
 use crate::read::{Pick, ReadError};
 
 #[cfg(feature = "las")]
@@ -18,15 +18,18 @@ mod packed;
 #[cfg(feature = "las")]
 mod wkt;
 
+/// What is asked for, and how much memory that may take.
+type Asked<'a> = (&'a Pick, &'a Memory);
+
 /// Reads ground.
 #[cfg(feature = "las")]
-pub(super) fn read(label: &str, bytes: &[u8], pick: &Pick, notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
-    cloud::read(label, bytes, pick, notes)
+pub(super) fn read(label: &str, bytes: &[u8], asked: Asked<'_>, notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
+    cloud::read(label, bytes, asked, notes)
 }
 
 /// Refuses: the reader was left out.
 #[cfg(not(feature = "las"))]
-pub(super) fn read(label: &str, _: &[u8], _: &Pick, _: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
+pub(super) fn read(label: &str, _: &[u8], _: Asked<'_>, _: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
     let help = format!("use a program with it, or write the ground points as text, e.g. `pdal translate {label} ground.csv`");
-    Err(super::refuse("this program was built without LAS and LAZ", label, "format: las", &help))
+    Err(crate::read::error::refuse("this program was built without LAS and LAZ", label, "format: las", &help))
 }

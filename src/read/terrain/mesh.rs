@@ -1,7 +1,8 @@
 //! Meshes to be looked at as they are, with whatever is wrong with them.
 
-use super::{InputFormat, Pick, RawFaces, ReadError, Said, Source, kind, obj, ply, refuse};
+use super::{InputFormat, Pick, RawFaces, ReadError, Said, Source, kind, obj, ply};
 use crate::model::{LengthUnit, Memory, Note, Part};
+use crate::read::error::refuse;
 use crate::read::landxml::{self, Known};
 use crate::read::{dxf, room};
 use glam::DVec3;
@@ -70,6 +71,7 @@ pub(super) fn parse_mesh(label: &str, bytes: &[u8], format: InputFormat, pick: &
             let read = match format {
                 InputFormat::Ply => ply::load(label, bytes, &mut notes).map(|loaded| {
                     let named = loaded.parts.iter().map(|&part| part_name(part)).collect::<Vec<_>>();
+                    said = loaded.spoken.said();
                     (loaded.vertices, loaded.faces, numbered(named.into_iter()))
                 }),
                 InputFormat::LandXml => {
@@ -90,6 +92,7 @@ pub(super) fn parse_mesh(label: &str, bytes: &[u8], format: InputFormat, pick: &
                 _ => obj::load(label, bytes, &mut notes).map(|loaded| {
                     let count = loaded.faces.as_ref().map_or(0, RawFaces::len);
                     let groups = by_face(&loaded.groups, count);
+                    said = loaded.spoken.said();
                     (loaded.vertices, loaded.faces, groups)
                 }),
             };
@@ -183,6 +186,19 @@ mod tests {
         let mesh = parse_mesh("a.ply", text.as_bytes(), InputFormat::Ply, &Pick::default()).unwrap();
         assert_eq!(mesh.names, ["fill_slope", "platform", "part 9"]);
         assert_eq!(mesh.groups, [0, 1, 2, 0]);
+    }
+
+    #[test]
+    fn unit_and_system_are_those_of_the_comments() {
+        let obj = obj(&format!("# crs: EPSG:2263\n# unit: us-ft\n{FOUR}f 1 2 3\n"));
+        let header = "ply\nformat ascii 1.0\ncomment crs EPSG:2263\ncomment unit us-ft\nelement vertex 3\nproperty double x\n\
+                      property double y\nproperty double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+        let text = format!("{header}0 0 1\n1 0 2\n1 1 3\n3 0 1 2\n");
+        let ply = parse_mesh("a.ply", text.as_bytes(), InputFormat::Ply, &Pick::default()).unwrap();
+        for mesh in [obj, ply] {
+            assert_eq!(mesh.source.unit, Some(LengthUnit::UsSurveyFoot));
+            assert_eq!(mesh.source.crs.as_deref(), Some("EPSG:2263"));
+        }
     }
 
     #[test]

@@ -11,14 +11,20 @@ mod mesh;
 mod obj;
 mod ply;
 mod points;
+mod single;
 
 pub use mesh::{RawMesh, read_mesh};
 
+use super::error::refuse;
 use super::room;
 use super::{ColumnOrder, InputFormat, Pick, ReadError, Source};
 use crate::model::{LengthUnit, Memory, Note};
 use glam::{DVec2, DVec3};
 use std::path::Path;
+
+/// Magnitude from which a height is none, in any unit: markers such as 10³⁰ and −3.4·10³⁸, which files do not always name and often
+/// print with fewer digits than they have.
+pub const NO_HEIGHT: f64 = 1e20;
 
 /// What the caller knows about a ground file.
 #[derive(Clone, Debug, Default)]
@@ -113,7 +119,7 @@ pub struct RawTerrain {
     pub notes: Vec<Note>,
 }
 
-/// Reads existing ground from a file: OBJ, PLY, points as text, ESRI ASCII grid, GeoTIFF, LAS and LAZ.
+/// Reads existing ground from a file: OBJ, PLY, LandXML, DXF, points as text, ESRI ASCII grid, GeoTIFF, LAS and LAZ.
 ///
 /// # Errors
 /// [`ReadError`] when the file cannot be opened, when its content is not what its name says, or when it is damaged: the
@@ -176,7 +182,7 @@ fn parse(label: &str, bytes: &[u8], options: &TerrainOptions, by_name: Option<&C
                 InputFormat::LandXml => super::landxml::ground(label, bytes, known, &mut notes),
                 InputFormat::Dxf => super::dxf::ground(label, bytes, pick, &mut notes),
                 InputFormat::GeoTiff => geotiff::read(label, bytes, &options.memory, &mut notes),
-                InputFormat::Las => las::read(label, bytes, pick, &mut notes),
+                InputFormat::Las => las::read(label, bytes, (pick, &options.memory), &mut notes),
                 InputFormat::Csv | InputFormat::GeoJson | InputFormat::Gpx => {
                     points::read(label, bytes, options.csv_order.as_ref(), by_name, &mut notes)
                 }
@@ -197,22 +203,6 @@ pub(in crate::read) struct Said {
     pub(in crate::read) kind: super::CoordinateKind,
     pub(in crate::read) crs: Option<String>,
     pub(in crate::read) unit: Option<LengthUnit>,
-}
-
-/// A file refused as a whole.
-pub(in crate::read) fn refuse(what: &str, at: impl Into<String>, figures: impl Into<String>, help: &str) -> ReadError {
-    ReadError::Content { what: what.into(), at: at.into(), figures: figures.into(), help: help.into() }
-}
-
-/// A piece of a file short enough for a message, with what cannot be printed replaced.
-pub(in crate::read) fn clip(bytes: &[u8]) -> String {
-    const LONGEST: usize = 60;
-    let cut = bytes.len() > LONGEST;
-    let text: String = String::from_utf8_lossy(&bytes[..bytes.len().min(LONGEST)])
-        .chars()
-        .map(|c| if c.is_control() && c != '\t' { '·' } else { c })
-        .collect();
-    format!("{}{}", text.trim(), if cut { "…" } else { "" })
 }
 
 /// Collects faces; stays with plain triangles as long as there is nothing else.

@@ -8,9 +8,10 @@ mod lines;
 mod text;
 
 use super::comments::Spoken;
-use super::{Faces, RawFaces, RawGround, Said, refuse};
+use super::{Faces, RawFaces, RawGround, Said};
 use crate::model::Note;
 use crate::read::ReadError;
+use crate::read::error::refuse;
 use glam::DVec3;
 use std::borrow::Cow;
 

@@ -4,14 +4,13 @@ mod header;
 mod scan;
 
 use super::comments::Spoken;
-use super::{Faces, RawFaces, RawGround, Said, clip, refuse};
+use super::{Faces, RawFaces, RawGround, Said};
 use crate::model::Note;
 use crate::read::ReadError;
+use crate::read::error::{clip, refuse};
 use glam::DVec3;
 use header::{Element, Encoding, Header, Kind, Scalar};
 use rayon::prelude::*;
-#[cfg(feature = "geotiff")]
-pub(super) use scan::single;
 use scan::{Miss, Scan, value};
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -1,7 +1,7 @@
 //! The structure of TIFF files: byte order, directories, tags (TIFF 6.0, section 2; BigTIFF).
 
-use super::super::refuse;
 use crate::read::ReadError;
+use crate::read::error::refuse;
 
 /// Most tags of one directory that are looked at; images have some twenty.
 const MOST_TAGS: u64 = 4096;
@@ -73,7 +73,7 @@ impl<'a> Tiff<'a> {
         let big = bytes.starts_with(b"MM\0");
         let tiff = Self { label, bytes, big, wide: bytes.starts_with(b"MM\0+") || bytes.starts_with(b"II+\0") };
         if !(tiff.wide || bytes.starts_with(b"MM\0*") || bytes.starts_with(b"II*\0")) {
-            let figures = format!("it begins with `{}`, not with `II*` or `MM*`", super::super::clip(bytes));
+            let figures = format!("it begins with `{}`, not with `II*` or `MM*`", crate::read::error::clip(bytes));
             return Err(refuse("the file is not a GeoTIFF", label, figures, "check the file"));
         }
         let first = if tiff.wide { tiff.number(8, 8)? } else { tiff.number(4, 4)? };

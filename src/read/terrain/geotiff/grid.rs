@@ -1,19 +1,17 @@
 //! From a GeoTIFF to a grid of heights.
 
 use super::super::geokeys::{GeoKeys, Model, Unit};
-use super::super::{RawGrid, RawGround, Said, refuse};
+use super::super::{NO_HEIGHT, RawGrid, RawGround, Said};
 use super::directory::{Directory, Tiff};
 use super::image::Image;
 use super::metadata::{self, Metadata};
 use super::place::Place;
 use crate::model::{Memory, Note};
+use crate::read::error::{clip, refuse};
 use crate::read::{ReadError, room};
 
 /// Most images of a file that are looked at.
 const MOST_IMAGES: usize = 256;
-
-/// Magnitude from which a height is none: what is left of markers such as −3.4·10³⁸ that the file does not name.
-const NO_HEIGHT: f64 = 1e30;
 
 /// The images of a file that matter.
 struct Images<'a> {
@@ -63,8 +61,7 @@ pub(super) fn read(label: &str, bytes: &[u8], memory: &Memory, notes: &mut Vec<N
     let marker = match no_data {
         Some(Ok(number)) => image.sample.nearest(number),
         Some(Err(text)) => {
-            let message =
-                format!("the value that stands for no height cannot be understood: `{}`", super::super::clip(text.as_bytes()));
+            let message = format!("the value that stands for no height cannot be understood: `{}`", clip(text));
             notes.push(Note::new("raster-no-data", message));
             f64::NAN
         }

@@ -1,9 +1,9 @@
 //! One image of a TIFF file: how it is cut up and packed, and its first band as numbers.
 
-use super::super::refuse;
 use super::directory::{Directory, Tiff, Wholes};
 use super::unpack::{Compression, MOST_EXPANSION, Predictor, Sample};
 use crate::read::ReadError;
+use crate::read::error::refuse;
 use rayon::prelude::*;
 
 /// Most cells of a grid: their heights take 8 bytes each, 0.8 GB.

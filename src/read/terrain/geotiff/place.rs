@@ -1,8 +1,8 @@
 //! Where the cells of a GeoTIFF lie (OGC GeoTIFF 1.1, section 7.4 and annex B.6).
 
-use super::super::refuse;
 use super::directory::{Directory, Tiff};
 use crate::read::ReadError;
+use crate::read::error::refuse;
 use glam::DVec2;
 
 /// Turned by less than this share of the size of a cell is not turned: what is left of decimal fractions.

@@ -1,6 +1,6 @@
 //! Packed bytes of one strip or tile → its samples: compressions, predictors, numbers.
 
-use super::super::ply::single;
+use super::super::single::single;
 use super::directory::whole;
 use std::io::Read;
 

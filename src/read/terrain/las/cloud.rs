@@ -1,12 +1,13 @@
 //! Points of a cloud → those that are ground.
 
 use super::super::geokeys::{GeoKeys, Model, Unit};
-use super::super::{RawGround, Said, refuse};
+use super::super::{RawGround, Said};
 use super::header::Header;
-use super::{packed, wkt};
-use crate::model::Note;
+use super::{Asked, packed, wkt};
+use crate::model::{Memory, Note};
+use crate::read::error::refuse;
 use crate::read::pick::GROUND_CLASS;
-use crate::read::{Pick, ReadError};
+use crate::read::{ReadError, room};
 use glam::{DVec3, IVec3};
 use rayon::prelude::*;
 
@@ -27,22 +28,28 @@ pub(super) struct Part {
     outside: u64,
 }
 
+/// The class of a record.
+#[inline]
+fn class(header: &Header<'_>, record: &[u8]) -> usize {
+    usize::from(if header.format >= 6 { record[16] } else { record[15] & 0x1F })
+}
+
 impl Part {
     /// Looks at one record, which is as long as the header says.
     #[inline]
     pub(super) fn take(&mut self, header: &Header<'_>, record: &[u8], classes: &[bool; 256]) {
         self.counts.resize(256, 0);
-        let (class, withheld, overlap) = if header.format >= 6 {
-            (record[16], record[15] & 4 != 0, record[15] & 8 != 0)
-        } else {
-            (record[15] & 0x1F, record[15] & 0x80 != 0, false)
+        let class = class(header, record);
+        let (withheld, overlap) = match header.format {
+            6.. => (record[15] & 4 != 0, record[15] & 8 != 0),
+            _ => (record[15] & 0x80 != 0, false),
         };
         if withheld {
             self.withheld += 1;
             return;
         }
-        self.counts[usize::from(class)] += 1;
-        if !classes[usize::from(class)] {
+        self.counts[class] += 1;
+        if !classes[class] {
             return;
         }
         if overlap {
@@ -55,6 +62,11 @@ impl Part {
         let inside = point.cmpge(header.lo - header.scale) & point.cmple(header.hi + header.scale);
         self.outside += u64::from(!inside.all());
         self.points.push(point);
+    }
+
+    /// Number of points taken.
+    pub(super) fn len(&self) -> usize {
+        self.points.len()
     }
 
     pub(super) fn append(&mut self, mut other: Self) {
@@ -72,7 +84,12 @@ impl Part {
 }
 
 /// Reads ground.
-pub(super) fn read(label: &str, bytes: &[u8], pick: &Pick, notes: &mut Vec<Note>) -> Result<(RawGround, Said), ReadError> {
+pub(super) fn read(
+    label: &str,
+    bytes: &[u8],
+    (pick, memory): Asked<'_>,
+    notes: &mut Vec<Note>,
+) -> Result<(RawGround, Said), ReadError> {
     let header = Header::read(label, bytes)?;
     let keys = system(&header);
     if keys.model == Model::Geocentric {
@@ -84,7 +101,7 @@ pub(super) fn read(label: &str, bytes: &[u8], pick: &Pick, notes: &mut Vec<Note>
     let asked: &[u8] = if pick.classes.is_empty() { &[GROUND_CLASS] } else { &pick.classes };
     let mut classes = [false; 256];
     asked.iter().for_each(|class| classes[usize::from(*class)] = true);
-    let mut found = if header.packed { packed::read(&header, &classes)? } else { plain(&header, &classes)? };
+    let mut found = if header.packed { packed::read(&header, &classes, memory)? } else { plain(&header, &classes, memory)? };
     if found.points.is_empty() {
         return Err(no_ground(&header, asked, &found));
     }
@@ -119,7 +136,7 @@ pub(super) fn read(label: &str, bytes: &[u8], pick: &Pick, notes: &mut Vec<Note>
 }
 
 /// Points that are not packed.
-fn plain(header: &Header<'_>, classes: &[bool; 256]) -> Result<Part, ReadError> {
+fn plain(header: &Header<'_>, classes: &[bool; 256], memory: &Memory) -> Result<Part, ReadError> {
     let bytes = &header.bytes[header.from..];
     let there = bytes.len() / header.record;
     if there < header.count {
@@ -128,6 +145,11 @@ fn plain(header: &Header<'_>, classes: &[bool; 256]) -> Result<Part, ReadError> 
         return Err(refuse("the LAS file has fewer points than its header says", header.label, figures, help));
     }
     let points = &bytes[..header.count * header.record];
+    if memory.limit().is_some() {
+        let meant = |record: &[u8]| classes[class(header, record)];
+        let most = points.par_chunks_exact(header.record).filter(|record| meant(record)).count();
+        room::for_points(header.label, header.bytes.len(), most as u64, memory)?;
+    }
     let parts: Vec<Part> = points
         .par_chunks(POINTS * header.record)
         .map(|stretch| {
@@ -205,7 +227,8 @@ fn no_ground(header: &Header<'_>, asked: &[u8], found: &Part) -> ReadError {
     refuse(&what, header.label, figures, &help)
 }
 
-/// Meaning of the usual classes (ASPRS LAS 1.4, table 17), behind the number.
+/// Meaning of the usual classes (ASPRS LAS 1.4 R15, tables 9 and 17; 8 and 12 have one in point formats 0 to 5 only), behind the
+/// number.
 fn named(class: usize) -> &'static str {
     match class {
         0 => " (never classified)",

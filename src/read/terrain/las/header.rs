@@ -1,7 +1,7 @@
 //! Header and variable-length records of LAS files (ASPRS LAS 1.4, R15).
 
-use super::super::refuse;
 use crate::read::ReadError;
+use crate::read::error::refuse;
 use glam::DVec3;
 
 /// Bytes of a point record without extra bytes, by point format.
@@ -79,7 +79,7 @@ impl<'a> Header<'a> {
         let cut = || refuse("the LAS file is cut off within its header", label, format!("{} bytes", bytes.len()), AGAIN);
         let at = Bytes(bytes);
         if !bytes.starts_with(b"LASF") {
-            let figures = format!("it begins with `{}`, not with `LASF`", super::super::clip(bytes));
+            let figures = format!("it begins with `{}`, not with `LASF`", crate::read::error::clip(bytes));
             return Err(refuse("the file is not a LAS or LAZ file", label, figures, "check the file"));
         }
         let version = at.array::<2>(24).ok_or_else(cut)?;

@@ -1,10 +1,11 @@
 //! Packed points of LAZ files: chunks, each unpacked by itself.
 
-use super::super::refuse;
 use super::cloud::Part;
 use super::guard::guarded;
 use super::header::Header;
-use crate::read::ReadError;
+use crate::model::Memory;
+use crate::read::error::refuse;
+use crate::read::{ReadError, room};
 use laz::laszip::ChunkTable;
 use laz::record::{LayeredPointRecordDecompressor, RecordDecompressor, SequentialPointRecordDecompressor};
 use laz::{DecompressionSelection, LazItem, LazItemType, LazVlr};
@@ -39,8 +40,11 @@ fn damaged(header: &Header<'_>, figures: impl Into<String>) -> ReadError {
     refuse("the LAZ file is damaged", header.label, figures, AGAIN)
 }
 
+/// Chunks unpacked before it is asked again whether there is room: what is in them shows only then.
+const AT_ONCE: usize = 32;
+
 /// Unpacks all points, chunk by chunk, in the order of the file.
-pub(super) fn read(header: &Header<'_>, classes: &[bool; 256]) -> Result<Part, ReadError> {
+pub(super) fn read(header: &Header<'_>, classes: &[bool; 256], memory: &Memory) -> Result<Part, ReadError> {
     let Some(record) = header.content(LazVlr::USER_ID, LazVlr::RECORD_ID) else {
         return Err(damaged(header, "it does not say how its points are packed"));
     };
@@ -67,12 +71,16 @@ pub(super) fn read(header: &Header<'_>, classes: &[bool; 256]) -> Result<Part, R
         chunks(header, &vlr)?
     };
     let packing = Packing { header, items: vlr.items().clone(), layered };
-    // All results are kept, so that the first error is told and not any.
-    let parts: Vec<Result<Part, ReadError>> =
-        chunks.par_iter().enumerate().map(|(number, chunk)| packing.unpack(number, chunk, classes)).collect();
     let mut all = Part::default();
-    for part in parts {
-        all.append(part?);
+    for (group, chunks) in chunks.chunks(AT_ONCE).enumerate() {
+        let most = all.len() + chunks.iter().map(|chunk| chunk.count).sum::<usize>();
+        room::for_points(header.label, header.bytes.len(), most as u64, memory)?;
+        // All results are kept, so that the first error is told and not any.
+        let unpack = |(number, chunk)| packing.unpack(group * AT_ONCE + number, chunk, classes);
+        let parts: Vec<Result<Part, ReadError>> = chunks.par_iter().enumerate().map(unpack).collect();
+        for part in parts {
+            all.append(part?);
+        }
     }
     Ok(all)
 }

@@ -1,7 +1,7 @@
 //! Which line of an OBJ file is wrong, and how.
 
-use super::super::{clip, refuse};
 use super::text::{line_at, without_comment};
+use crate::read::error::{clip, refuse};
 use crate::read::{ReadError, decimal};
 
 fn at_line(label: &str, bytes: &[u8], at: usize, what: &str, figures: impl FnOnce(&str) -> String, help: &str) -> ReadError {

@@ -1,7 +1,7 @@
 //! The header of a PLY file.
 
-use super::super::{clip, refuse};
 use crate::read::ReadError;
+use crate::read::error::{clip, refuse};
 
 /// How the data are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
