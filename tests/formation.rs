@@ -331,6 +331,21 @@ fn refusals_name_places_figures_and_cures() {
     let pad = ring(&[[20., -1., 1.], [22., -1., 1.], [22., 1., 1.], [20., 1., 1.]]);
     let error = widened(&[open(&[[0., 0., 1.], [50., 0., 1.]]), pad], &road(8.0, 0.0, 0.0)).unwrap_err().to_string();
     assert!(error.starts_with("ring `line 2` lies inside the road of `line 1`\n  --> road.geojson, part 2, vertex 0"), "{error}");
+    // A road on a pad is no hole in it; nor is one beside it on anything.
+    let pad = ring(&[[0., 0., 1.], [50., 0., 1.], [50., 40., 1.], [0., 40., 1.]]);
+    let across = |y: f64| open(&[[10., y, 2.], [40., y, 2.]]);
+    let error = widened(&[pad.clone(), across(20.)], &road(4.0, 0.0, 0.0)).unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "the road of `line 2` lies inside ring `line 1`\n  --> road.geojson, part 2, vertex 0\n   = its edge begins at x 10.000, y \
+         22.000\n   = help: build them one by one: the ring first, and the road on that as `--terrain` (see `--finished`); for a line \
+         that shapes the platform of the ring, set its `role` to `breakline`"
+    );
+    let error = widened(&[across(2.0), pad.clone()], &road(4.0, 0.0, 0.0)).unwrap_err().to_string();
+    assert!(error.starts_with("the road of `line 1` lies inside ring `line 2`"), "{error}");
+    let error = widened(&[open(&[[0., 0., 1.], [50., 0., 1.]]), open(&[[20., -1., 1.], [20.5, -1., 1.]])], &road(8.0, 0.0, 0.0));
+    assert!(matches!(error, Err(FormationError::Invalid(_))), "{error:?}");
+    assert!(widened(&[pad, across(42.0), across(50.0)], &road(4.0, 0.0, 0.0)).is_ok());
     // Legs that touch.
     let touching = message(&[[0., 0., 1.], [100., 0., 1.], [100., 40., 1.], [0., 40., 1.], [0., 8., 1.], [60., 8., 1.]], 8.0);
     assert!(touching.contains("8.000 apart, the width is 8\n   = help: give `--width` 7.99 or less"), "{touching}");

@@ -2,9 +2,8 @@
 
 use super::FormationError;
 use super::nodes::Nodes;
-use super::widen::meetings;
-use crate::kernel::orientation::{Turn, turn};
-use crate::kernel::segment;
+use crate::kernel::ring_index::{RingIndex, doubled_area};
+use crate::kernel::segment::{self, meeting};
 use crate::kernel::segment_tree::SegmentTree;
 use crate::model::{Breakline, Chain, Defect, Defects, Line, Role};
 use crate::validate::Locator;
@@ -185,7 +184,7 @@ impl<'a> Work<'a> {
                 continue;
             }
             let (s, k) = segments[i - first];
-            for at in meetings(ends[i], ends[j]) {
+            for at in meeting(ends[i].into(), ends[j].into()).points() {
                 self.join([(s, k), (t, l)], at);
             }
         }
@@ -348,47 +347,33 @@ fn locator<'a>(label: &'a str, place: &crate::model::Place) -> Locator<'a> {
 }
 
 /// Which ring's platform a place belongs to.
-pub(super) struct Inside<'a> {
+struct Inside<'a> {
     chains: &'a [Chain],
-    segments: Vec<(usize, DVec2, DVec2)>,
-    tree: SegmentTree,
+    index: RingIndex,
+    /// Area of each ring, twice; nought of lines that are open.
+    sizes: Vec<f64>,
 }
 
 impl<'a> Inside<'a> {
-    pub(super) fn new(chains: &'a [Chain]) -> Self {
+    fn new(chains: &'a [Chain]) -> Self {
         let rings = chains.iter().enumerate().filter(|(_, chain)| chain.closed());
-        let segments: Vec<(usize, DVec2, DVec2)> = rings
-            .flat_map(|(c, chain)| {
-                (0..chain.segment_count()).map(move |i| {
-                    let (a, b) = chain.segment(i);
-                    (c, a.truncate(), b.truncate())
-                })
+        let sides = rings.flat_map(|(c, chain)| {
+            (0..chain.segment_count()).map(move |i| {
+                let (a, b) = chain.segment(i);
+                (c, a.truncate(), b.truncate())
             })
-            .collect();
-        let ends: Vec<_> = segments.iter().map(|&(_, a, b)| (a, b)).collect();
-        Self { chains, segments, tree: SegmentTree::new(&ends) }
+        });
+        let index = RingIndex::new(sides.collect());
+        let size =
+            |chain: &Chain| if chain.closed() { doubled_area(chain.vertices.iter().map(|v| v.truncate())).abs() } else { 0.0 };
+        Self { chains, index, sizes: chains.iter().map(size).collect() }
     }
 
     /// The smallest polygon with `p` inside: its outer ring.
-    pub(super) fn ring_at(&self, p: DVec2) -> Option<usize> {
-        let mut odd = vec![false; self.chains.len()];
-        self.tree.ray(p, |i| {
-            let (c, a, b) = self.segments[i];
-            if (a.y > p.y) != (b.y > p.y) {
-                odd[c] ^= (turn(a, b, p) == Turn::Left) == (b.y > a.y);
-            }
-        });
-        let in_hole = |of: u32| {
-            let hole = |(c, chain): (usize, &Chain)| odd[c] && chain.role == (Role::Hole { polygon: of });
-            self.chains.iter().enumerate().any(hole)
-        };
-        let size = |c: usize| {
-            let origin = self.chains[c].vertices[0].truncate();
-            let own = self.segments.iter().filter(|s| s.0 == c);
-            own.map(|(_, a, b)| (*a - origin).perp_dot(*b - origin)).sum::<f64>().abs()
-        };
-        (0..self.chains.len())
-            .filter(|&c| odd[c] && matches!(self.chains[c].role, Role::Outer { polygon } if !in_hole(polygon)))
-            .min_by(|&a, &b| size(a).total_cmp(&size(b)))
+    fn ring_at(&self, p: DVec2) -> Option<usize> {
+        let around = self.index.around(p);
+        let in_hole = |of: u32| around.iter().any(|&c| self.chains[c].role == (Role::Hole { polygon: of }));
+        let outer = |&c: &usize| matches!(self.chains[c].role, Role::Outer { polygon } if !in_hole(polygon));
+        around.iter().copied().filter(outer).min_by(|&a, &b| self.sizes[a].total_cmp(&self.sizes[b]))
     }
 }

@@ -26,6 +26,21 @@ pub enum CrossfallError {
         "`{0}` has more than two sides\n   = help: give one fall for both, or `LEFT,RIGHT` such as `2.5%,-2.5%`; decimals behind a point"
     )]
     Sides(String),
+    /// A comma that may part two sides, or be a decimal one.
+    #[error(
+        "`{given}` is ambiguous\n   = it may mean `{both}` on both sides, or `{left}` on the left and `{right}` on the right\n   \
+         = help: write `{both}` or `{left};{right}`"
+    )]
+    Ambiguous {
+        /// As typed.
+        given: String,
+        /// With a decimal point.
+        both: String,
+        /// Before the comma.
+        left: String,
+        /// Behind it.
+        right: String,
+    },
     /// A wall.
     #[error(
         "`{given}` is too steep for a crossfall\n   = {fall} fall per length\n   = help: give one below 100%, such as `2.5%`"
@@ -42,13 +57,21 @@ impl FromStr for Crossfall {
     type Err = CrossfallError;
 
     /// Reads `2.5%` (both edges lower), `-2.5%` (both higher), `2.5%,-2.5%` (left, right), in any notation of slopes; `0` is
-    /// level. A comma that can be a decimal one is; a semicolon parts the sides too.
+    /// level. A comma that can be a decimal one is, as in `2,5%`; where it may be either, as in `0,2%`, it is refused. A
+    /// semicolon parts the sides too.
     ///
     /// # Errors
     /// [`CrossfallError`], in words for the person who typed it.
     fn from_str(given: &str) -> Result<Self, CrossfallError> {
         let whole = one(given);
         if let Ok(fall) = whole {
+            if let Some((left, right)) = given.split_once(',')
+                && let (Ok(first), Ok(second)) = (one(left), one(right))
+                && (first, second) != (fall, fall)
+            {
+                let [given, left, right] = [given, left, right].map(|text| text.trim().to_owned());
+                return Err(CrossfallError::Ambiguous { both: given.replacen(',', ".", 1), given, left, right });
+            }
             return Ok(Self { left: fall, right: fall });
         }
         let sides: Vec<&str> = given.split([',', ';']).collect();
@@ -111,6 +134,15 @@ mod tests {
         assert!(matches!(error("2%,x"), CrossfallError::Side(SlopeError::NotUnderstood(_))));
         assert!(matches!(error("1%,2%,3%"), CrossfallError::Sides(_)));
         assert!(matches!(error("100%"), CrossfallError::Steep { fall: 1.0, .. }));
+        assert_eq!(
+            error("0,2%").to_string(),
+            "`0,2%` is ambiguous\n   = it may mean `0.2%` on both sides, or `0` on the left and `2%` on the right\n   \
+             = help: write `0.2%` or `0;2%`"
+        );
+        assert!(matches!(error("-0,5%"), CrossfallError::Ambiguous { .. }));
+        assert_eq!("0.2%".parse(), Ok(Crossfall { left: 0.002, right: 0.002 }));
+        assert_eq!("0;2%".parse(), Ok(Crossfall { left: 0.0, right: 0.02 }));
+        assert_eq!("0,0%".parse(), Ok(Crossfall::default()));
         assert!(matches!(error("--2%"), CrossfallError::Side(_)));
         assert!(matches!(error("."), CrossfallError::Side(_)));
         assert!(matches!(error(""), CrossfallError::Side(SlopeError::Empty)));

@@ -82,6 +82,27 @@ pub enum FormationError {
         /// Its first vertex.
         y: f64,
     },
+    /// A road lies on the platform of a ring, or of another road.
+    #[error(
+        "the road of `{name}` lies inside {} `{ring}`\n  --> {at}\n   = its edge begins at x {x:.3}, y {y:.3}\n   \
+         = help: build them one by one: the ring first, and the road on that as `--terrain` (see `--finished`); for a line that \
+         shapes the platform of the ring, set its `role` to `breakline`",
+        if *.of_road { "the road of" } else { "ring" }
+    )]
+    RoadInside {
+        /// Name of the centre line.
+        name: String,
+        /// Whether what it lies on is a road.
+        of_road: bool,
+        /// Name of the ring, or of the centre line of the road, around it.
+        ring: String,
+        /// Place of the centre line.
+        at: String,
+        /// First vertex of its edge.
+        x: f64,
+        /// First vertex of its edge.
+        y: f64,
+    },
     /// Rings, those of roads among them, cross; or breaklines have no place.
     #[error(transparent)]
     Invalid(#[from] Defects),

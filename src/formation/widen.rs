@@ -1,9 +1,8 @@
 //! From a centre line to the ring of its road.
 
-use super::breaklines::Inside;
 use super::edge::{Centre, EdgePoint, Fault, left, on_centre, sagitta};
 use super::{Formation, FormationError, Formed};
-use crate::kernel::orientation::{Turn, turn};
+use crate::kernel::segment::meeting;
 use crate::kernel::segment_tree::SegmentTree;
 use crate::model::{Axis, Breakline, Chain, Line, Note, Role};
 use crate::validate::{Locator, MERGE_DISTANCE, check_rings};
@@ -23,7 +22,8 @@ const LEAST_STEP: f64 = 0.001;
 /// Expects a validated line; `label` names its input.
 ///
 /// # Errors
-/// [`FormationError`]: no open chain, a centre line that comes closer to itself than the width, rings that cross.
+/// [`FormationError`]: no open chain, a centre line that comes closer to itself than the width, rings that cross, a road on the
+/// platform of a ring or of another road, a ring on a road.
 pub fn widen(line: &Line, label: &str, formation: &Formation) -> Result<Formed, FormationError> {
     if line.chains.iter().all(Chain::closed) {
         return Err(FormationError::NoCentreLine { label: label.to_owned(), rings: line.chains.len() });
@@ -51,25 +51,25 @@ pub fn widen(line: &Line, label: &str, formation: &Formation) -> Result<Formed, 
         formed.line.chains[i] = ring;
         polygon += 1;
     }
-    check_rings(&formed.line, label)?;
-    check_free(&formed.line, label)?;
+    check_nested(&formed.line, label)?;
     Ok(formed)
 }
 
-/// No ring may lie on a road: its slopes would.
-fn check_free(line: &Line, label: &str) -> Result<(), FormationError> {
-    let roads: Vec<Chain> = line.chains.iter().filter(|chain| chain.axis.is_some()).cloned().collect();
-    let inside = Inside::new(&roads);
-    for (chain, locator) in line.chains.iter().zip(Locator::of_chains(label, &line.chains)) {
-        let (first, place) = (chain.vertices[0], chain.places[0]);
-        if chain.axis.is_none()
-            && let Some(road) = inside.ring_at(first.truncate())
-        {
-            let (ring, name, at) = (chain.name.clone(), roads[road].name.clone(), locator.vertex(place));
-            return Err(FormationError::RingInside { ring, name, at, x: first.x, y: first.y });
-        }
-    }
-    Ok(())
+/// Rings and roads stand beside each other: no ring may lie on a road, nor a road on what a ring bounds. Slopes would cover the
+/// one or the other, or the road be a hole.
+fn check_nested(line: &Line, label: &str) -> Result<(), FormationError> {
+    let nested = check_rings(line, label)?;
+    // Rings that are holes already lie inside theirs; those on roads do, too, but not by right.
+    let roads = |&(inner, around): &(usize, usize)| line.chains[inner].axis.is_some() || line.chains[around].axis.is_some();
+    let Some((inner, around)) = nested.into_iter().find(roads) else { return Ok(()) };
+    let (chain, outer) = (&line.chains[inner], &line.chains[around]);
+    let at = Locator::of_chains(label, &line.chains)[inner].vertex(chain.places[0]);
+    let (name, ring) = (outer.name.clone(), chain.name.clone());
+    let (x, y) = (chain.vertices[0].x, chain.vertices[0].y);
+    Err(match (&chain.axis, &outer.axis) {
+        (None, _) => FormationError::RingInside { ring, name, at, x, y },
+        (Some(_), axis) => FormationError::RoadInside { name: ring, of_road: axis.is_some(), ring: name, at, x, y },
+    })
 }
 
 fn road(
@@ -128,7 +128,7 @@ fn check_centre(centre: &Centre) -> Result<(), Fault> {
     let mut found = None;
     SegmentTree::new(&ends).pairs(|i, j| {
         if i.abs_diff(j) > 1
-            && let Some(at) = meetings(ends[i], ends[j]).next()
+            && let Some(at) = meeting(ends[i].into(), ends[j].into()).points().next()
         {
             let station = |k: usize| centre.stations[k] + ends[k].0.distance(at);
             found = Some([station(i.min(j)), station(i.max(j))]);
@@ -145,7 +145,7 @@ fn check_itself(points: &[EdgePoint], centre: &Centre, width: f64) -> Result<(),
     let mut found = None;
     SegmentTree::new(&ends).pairs(|i, j| {
         let neighbours = j == i + 1 || (i == 0 && j + 1 == n);
-        if !neighbours && let Some(at) = meetings(ends[i], ends[j]).next() {
+        if !neighbours && let Some(at) = meeting(ends[i].into(), ends[j].into()).points().next() {
             let station = |k: usize| {
                 let (a, b) = (&points[k], &points[(k + 1) % n]);
                 let part = a.plan.distance(at) / a.plan.distance(b.plan);
@@ -174,21 +174,6 @@ fn check_itself(points: &[EdgePoint], centre: &Centre, width: f64) -> Result<(),
         }
     }
     Err(Fault::Narrow { stations: best.0, distance: best.1 })
-}
-
-/// The common points of two closed segments, about; whether there are any is decided exactly.
-pub(super) fn meetings((a, b): (DVec2, DVec2), (c, d): (DVec2, DVec2)) -> impl Iterator<Item = DVec2> {
-    let sides = [turn(a, b, c), turn(a, b, d), turn(c, d, a), turn(c, d, b)];
-    let within = |p: DVec2, q: DVec2, r: DVec2| p.cmpge(q.min(r)).all() && p.cmple(q.max(r)).all();
-    let mut found = [(c, a, b), (d, a, b), (a, c, d), (b, c, d)].map(|(p, q, r)| within(p, q, r).then_some(p));
-    for (point, side) in found.iter_mut().zip(sides) {
-        *point = point.filter(|_| side == Turn::Straight);
-    }
-    if !sides.contains(&Turn::Straight) && sides[0] != sides[1] && sides[2] != sides[3] {
-        let (u, v) = (b - a, d - c);
-        found[0] = Some(a + u * ((c - a).perp_dot(v) / u.perp_dot(v)).clamp(0.0, 1.0));
-    }
-    found.into_iter().flatten()
 }
 
 fn fold_note(name: &str, edges: &[&[EdgePoint]; 2], width: f64) -> Option<Note> {

@@ -59,7 +59,20 @@ mod tests {
             for i in 0..=1000 {
                 let p = (min + (max - min) * (f64::from(i) / 1000.0)).extend(12.3);
                 assert_eq!(frame.to_world(frame.to_local(p)), p);
+                // Small numbers, which is what the frame is for: within the extent and the rounding of the origin.
+                let most = FAR_FROM_ORIGIN.mul_add((max - min).max_element(), 1.0);
+                assert!(frame.to_local(p).truncate().abs().max_element() <= most + (max - min).max_element(), "{p}");
             }
         }
+    }
+
+    /// Far boxes are shifted to their middle, each direction by itself; near ones stay.
+    #[test]
+    fn origins() {
+        let origin = |min: (f64, f64), max: (f64, f64)| Frame::around(min.into(), max.into()).origin();
+        assert_eq!(origin((500_000.0, 4_649_776.0), (500_700.0, 4_650_000.0)), DVec2::new(500_350.0, 4_649_888.0));
+        assert_eq!(origin((-500_700.0, 1_000.0), (-500_000.0, 1_100.0)), DVec2::new(-500_350.0, 0.0));
+        assert_eq!(origin((0.0, 0.0), (500_700.0, 4_650_000.0)), DVec2::ZERO);
+        assert_eq!(origin((1_600.5, -3.0), (1_700.5, 3.0)), DVec2::new(1_651.0, 0.0));
     }
 }

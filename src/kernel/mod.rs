@@ -8,6 +8,7 @@ pub mod hash;
 pub mod orientation;
 pub mod plan_box;
 pub mod range;
+pub mod ring_index;
 pub mod segment;
 pub mod segment_tree;
 pub mod sum;

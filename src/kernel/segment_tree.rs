@@ -111,31 +111,89 @@ impl SegmentTree {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::segment::{Meeting, distance, meeting};
     use proptest::prelude::*;
 
-    proptest! {
-        #[test]
-        fn near_misses_none(
-            steps in prop::collection::vec((-3.0..3.0_f64, -3.0..3.0_f64), 1..80),
-            p in (-9.0..9.0_f64, -9.0..9.0_f64),
-            reach in 0.0..2.0_f64,
-        ) {
+    /// Some runs of segments: chains on a coarse grid, where much meets, and off it.
+    fn segments() -> impl Strategy<Value = Vec<(DVec2, DVec2)>> {
+        let step = prop_oneof![
+            (-3.0..3.0_f64, -3.0..3.0_f64).prop_map(DVec2::from),
+            (-3..3_i32, -3..3_i32).prop_map(|(x, y)| DVec2::new(x.into(), y.into())),
+        ];
+        prop::collection::vec(step, 1..80).prop_map(|steps| {
             let mut at = DVec2::ZERO;
-            let segments: Vec<(DVec2, DVec2)> = steps.iter().map(|&step| {
+            let segment = |step| {
                 let from = at;
-                at += DVec2::from(step);
+                at += step;
                 (from, at)
-            }).collect();
-            let p = DVec2::from(p);
+            };
+            steps.into_iter().map(segment).collect()
+        })
+    }
+
+    fn place() -> impl Strategy<Value = DVec2> {
+        prop_oneof![
+            (-9.0..9.0_f64, -9.0..9.0_f64).prop_map(DVec2::from),
+            (-9..9_i32, -9..9_i32).prop_map(|(x, y)| DVec2::new(x.into(), y.into())),
+        ]
+    }
+
+    fn box_of(&(a, b): &(DVec2, DVec2)) -> PlanBox {
+        PlanBox::of([a, b])
+    }
+
+    proptest! {
+        /// All that come within reach, and nothing whose box does not.
+        #[test]
+        fn near_finds_what_its_boxes_say(segments in segments(), p in place(), reach in 0.0..2.0_f64) {
             let mut found = Vec::new();
             SegmentTree::new(&segments).near(p, reach, |i| found.push(i));
             found.sort_unstable();
             prop_assert!(found.windows(2).all(|w| w[0] < w[1]), "{:?}", found);
-            for (i, &(a, b)) in segments.iter().enumerate() {
-                let along = ((b - a).dot(p - a) / (b - a).length_squared()).clamp(0.0, 1.0);
-                let distance = (p - a - (b - a) * along).length();
-                prop_assert!(distance > reach || found.contains(&i), "{} at {}", i, distance);
+            for (i, segment) in segments.iter().enumerate() {
+                let away = distance(p, [segment.0, segment.1]);
+                prop_assert!(away > reach || found.contains(&i), "{} at {}", i, away);
+                let near = box_of(segment).meets(&PlanBox { lo: p - reach, hi: p + reach });
+                prop_assert!(near || !found.contains(&i), "{} at {}", i, away);
             }
+        }
+
+        /// Every pair that meets, once and in order, and none whose boxes do not; no more once told to stop.
+        #[test]
+        fn pairs_are_found_once(segments in segments(), most in 1..20_usize) {
+            let tree = SegmentTree::new(&segments);
+            let mut found = Vec::new();
+            tree.pairs(|i, j| {
+                found.push((i, j));
+                true
+            });
+            let mut some = 0;
+            tree.pairs(|_, _| {
+                some += 1;
+                some < most
+            });
+            prop_assert_eq!(some, most.min(found.len()));
+            found.sort_unstable();
+            prop_assert!(found.windows(2).all(|w| w[0] < w[1]) && found.iter().all(|(i, j)| i < j), "{:?}", found);
+            for j in 0..segments.len() {
+                for i in 0..j {
+                    let (s, t) = (segments[i], segments[j]);
+                    let told = found.binary_search(&(i, j)).is_ok();
+                    prop_assert!(told || meeting(s.into(), t.into()) == Meeting::Apart, "{:?} {:?}", s, t);
+                    prop_assert!(!told || box_of(&s).meets(&box_of(&t)), "{:?} {:?}", s, t);
+                }
+            }
+        }
+
+        /// All segments level with a point and not wholly west of it.
+        #[test]
+        fn rays_meet_boxes(segments in segments(), p in place()) {
+            let mut found = Vec::new();
+            SegmentTree::new(&segments).ray(p, |i| found.push(i));
+            found.sort_unstable();
+            let level = |b: &PlanBox| b.lo.y <= p.y && p.y <= b.hi.y && b.hi.x >= p.x;
+            let expected: Vec<usize> = (0..segments.len()).filter(|&i| level(&box_of(&segments[i]))).collect();
+            prop_assert_eq!(found, expected);
         }
     }
 }

@@ -61,40 +61,46 @@ pub fn check(raw: &RawInput, options: &Options) -> Result<Checked, Defects> {
 
 /// Makes holes of rings that lie inside an odd number of others, and the other way round: `nested` as told by [`rings::check`].
 fn even_odd(chains: &mut [Chain], nested: &[(usize, usize)], notes: &mut Vec<Note>) {
-    let polygon = |chain: &Chain| match chain.role {
+    let polygon = |role: Role| match role {
         Role::Outer { polygon } | Role::Hole { polygon } => polygon,
         Role::Open => 0,
     };
     let around: BTreeMap<usize, usize> = nested.iter().copied().collect();
-    let free = chains.iter().map(polygon).max().unwrap_or(0) + 1;
-    let mut holes = 0;
-    for i in 0..chains.len() {
-        match (chains[i].role, around.get(&i)) {
-            (Role::Outer { .. }, Some(&outer)) => {
-                let (inner, outer_name) = (&chains[i].name, &chains[outer].name);
-                notes.push(Note::new(
-                    "ring-inside-ring",
-                    format!("ring `{inner}` lies inside ring `{outer_name}`: it bounds a hole in it"),
-                ));
-                chains[i].role = Role::Hole { polygon: polygon(&chains[outer]) };
-            }
-            // A hole of a ring that is a hole itself bounds an island.
-            (Role::Hole { .. }, None) => chains[i].role = Role::Outer { polygon: free + i as u32 },
-            (Role::Hole { .. }, Some(_)) => holes += 1,
-            _ => {}
+    let free = chains.iter().map(|chain| polygon(chain.role)).max().unwrap_or(0) + 1;
+    // A hole of a ring that is a hole itself bounds an island.
+    for (i, chain) in chains.iter_mut().enumerate() {
+        if matches!(chain.role, Role::Hole { .. }) && !around.contains_key(&i) {
+            chain.role = Role::Outer { polygon: free + i as u32 };
         }
+    }
+    // All rings that are no holes have their numbers now: those around holes are among them.
+    let mut holes = 0;
+    for (&inner, &outer) in &around {
+        let hole = Role::Hole { polygon: polygon(chains[outer].role) };
+        if matches!(std::mem::replace(&mut chains[inner].role, hole), Role::Hole { .. }) {
+            holes += 1;
+            continue;
+        }
+        let (inner, outer) = (&chains[inner].name, &chains[outer].name);
+        let message = format!("ring `{inner}` lies inside ring `{outer}`: it bounds a hole in it");
+        notes.push(Note::new("ring-inside-ring", message));
     }
     if holes > 0 {
         notes.push(Note::new("polygon-holes", format!("polygons have holes, into which slopes run too: {holes}")));
     }
 }
 
-/// Checks the rings of a line that was changed after [`check`].
+/// Checks the rings of a line that was changed after [`check`]. The result names, by number of chain, rings that lie inside an
+/// odd number of others, each with the innermost ring around it.
 ///
 /// # Errors
 /// All places where rings touch or cross themselves or cross each other, and holes outside of their polygons.
-pub fn check_rings(line: &Line, label: &str) -> Result<(), Defects> {
+pub fn check_rings(line: &Line, label: &str) -> Result<Vec<(usize, usize)>, Defects> {
     let mut defects = Defects::default();
-    rings::check(label, &line.chains, &mut defects);
-    defects.into_result()
+    let nested = rings::check(label, &line.chains, &mut defects);
+    defects.into_result()?;
+    Ok(nested)
 }
+
+#[cfg(test)]
+mod tests;

@@ -6,9 +6,10 @@ mod contact;
 
 use super::place::Locator;
 use super::vertices::show;
-use crate::kernel::segment_tree::SegmentTree;
+use crate::kernel::ring_index::{RingIndex, doubled_area};
+use crate::kernel::segment::{Meeting, meeting};
 use crate::model::{Chain, Defect, Defects, Role};
-use contact::{Contacts, Meeting, is_spike, meeting, orient};
+use contact::{Contacts, is_spike};
 use glam::DVec2;
 use std::collections::{BTreeMap, HashSet};
 
@@ -30,7 +31,13 @@ struct Rings<'a> {
     locators: Vec<Locator<'a>>,
     label: &'a str,
     segments: Vec<Segment>,
+    index: RingIndex,
+    /// Whether each ring runs counter-clockwise.
+    left_about: Vec<bool>,
 }
+
+/// Where pairs of rings touch, by the numbers of both in either order: on which side of the first the second lies.
+type Touching = BTreeMap<(usize, usize), Contacts>;
 
 /// Checks the rings among the chains. The result names, by number of chain, rings that lie inside an odd number of others, each
 /// with the innermost ring around it; nothing while there are defects.
@@ -47,18 +54,19 @@ pub(super) fn check(label: &str, chains: &[Chain], defects: &mut Defects) -> Vec
             Segment { ring, index, a: a.truncate(), b: b.truncate() }
         })
     });
-    let rings = Rings { segments: segments.collect(), chains, locators, label };
-    let ends: Vec<_> = rings.segments.iter().map(|s| (s.a, s.b)).collect();
-    let tree = SegmentTree::new(&ends);
-    let mut contacts: BTreeMap<(usize, usize), Contacts> = BTreeMap::new();
+    let segments: Vec<Segment> = segments.collect();
+    let index = RingIndex::new(segments.iter().map(|s| (s.ring, s.a, s.b)).collect());
+    let left_about = chains.iter().map(|chain| doubled_area(chain.vertices.iter().map(|v| v.truncate())) > 0.0).collect();
+    let rings = Rings { chains, locators, label, segments, index, left_about };
+    let mut contacts = Touching::new();
     let mut seen = HashSet::new();
     let mut found = 0;
-    tree.pairs(|i, j| {
+    rings.index.tree().pairs(|i, j| {
         let (s, t) = (rings.segments[i], rings.segments[j]);
         if s.ring == t.ring {
             found += usize::from(rings.with_itself(s, t, &mut seen, defects));
         } else {
-            match meeting(s.a, s.b, t.a, t.b) {
+            match meeting([s.a, s.b], [t.a, t.b]) {
                 Meeting::Apart => {}
                 Meeting::Cross(at) => {
                     found += 1;
@@ -67,6 +75,7 @@ pub(super) fn check(label: &str, chains: &[Chain], defects: &mut Defects) -> Vec
                 Meeting::Touch(_) => {
                     let (r, q) = (rings.chains[s.ring], rings.chains[t.ring]);
                     contacts.entry((s.ring, t.ring)).or_default().add(r, s, q, t);
+                    contacts.entry((t.ring, s.ring)).or_default().add(q, t, r, s);
                 }
             }
         }
@@ -76,14 +85,14 @@ pub(super) fn check(label: &str, chains: &[Chain], defects: &mut Defects) -> Vec
         // Sides and insides mean nothing while rings cross.
         return Vec::new();
     }
-    for (&(a, b), contacts) in &contacts {
+    for (&(a, b), contacts) in contacts.iter().filter(|((a, b), _)| a < b) {
         rings.judge_contacts(a, b, contacts, defects);
     }
-    rings.holes(&tree, &contacts, defects);
+    rings.holes(&contacts, defects);
     if !defects.is_empty() {
         return Vec::new();
     }
-    let within = rings.within(&tree, &contacts);
+    let within = rings.within(&contacts);
     let depth = |ring: usize| within[ring].len();
     let odd = (0..within.len()).filter(|&ring| depth(ring) % 2 == 1);
     odd.filter_map(|ring| Some((ring, *within[ring].iter().max_by_key(|&&around| depth(around))?)))
@@ -105,10 +114,11 @@ impl Rings<'_> {
             }
             ("ring-spike", format!("ring `{name}` runs out and back on itself"), corner)
         } else {
-            match meeting(s.a, s.b, t.a, t.b) {
-                Meeting::Apart => return false,
-                Meeting::Cross(at) => ("ring-crosses-itself", format!("ring `{name}` crosses itself"), at),
-                Meeting::Touch(at) => ("ring-touches-itself", format!("ring `{name}` touches itself"), at),
+            let met = meeting([s.a, s.b], [t.a, t.b]);
+            let Some(at) = met.points().next() else { return false };
+            match met {
+                Meeting::Cross(_) => ("ring-crosses-itself", format!("ring `{name}` crosses itself"), at),
+                _ => ("ring-touches-itself", format!("ring `{name}` touches itself"), at),
             }
         };
         // A vertex that lies on another one is met by four pairs of segments.
@@ -173,7 +183,7 @@ impl Rings<'_> {
     }
 
     /// Holes must lie inside the outer ring of their polygon.
-    fn holes(&self, tree: &SegmentTree, contacts: &BTreeMap<(usize, usize), Contacts>, defects: &mut Defects) {
+    fn holes(&self, contacts: &Touching, defects: &mut Defects) {
         let mut outer_of = BTreeMap::new();
         for (i, chain) in self.chains.iter().enumerate() {
             if let Role::Outer { polygon } = chain.role {
@@ -184,11 +194,9 @@ impl Rings<'_> {
             let Role::Hole { polygon } = chain.role else { continue };
             // Without a sound outer ring there is another defect already.
             let Some(&outer) = outer_of.get(&polygon) else { continue };
-            let touching = contacts.get(&(outer.min(hole), outer.max(hole))).filter(|c| c.left != c.right);
-            let inside = match touching {
-                // The outer ring comes first in its polygon, so the side is that of the hole as seen from it.
-                Some(contacts) => contacts.left == (self.doubled_area(outer) > 0.0),
-                None => self.contains(tree, outer, chain.vertices[0].truncate()),
+            let inside = match contacts.get(&(outer, hole)).filter(|c| c.left != c.right) {
+                Some(contacts) => self.inside(outer, contacts),
+                None => self.index.around(chain.vertices[0].truncate()).contains(&outer),
             };
             if !inside {
                 defects.push("hole-outside", || Defect {
@@ -203,54 +211,23 @@ impl Rings<'_> {
     }
 
     /// For each ring those it lies inside of.
-    fn within(&self, tree: &SegmentTree, contacts: &BTreeMap<(usize, usize), Contacts>) -> Vec<Vec<usize>> {
-        let touch = |a: usize, b: usize| contacts.contains_key(&(a.min(b), a.max(b)));
-        let mut within: Vec<Vec<usize>> = Vec::with_capacity(self.chains.len());
-        for (ring, chain) in self.chains.iter().enumerate() {
-            let p = chain.vertices[0].truncate();
-            let mut odd: BTreeMap<usize, bool> = BTreeMap::new();
-            tree.ray(p, |i| {
-                let s = self.segments[i];
-                if s.ring != ring && (s.a.y > p.y) != (s.b.y > p.y) {
-                    *odd.entry(s.ring).or_default() ^= (orient(s.a, s.b, p) > 0.0) == (s.b.y > s.a.y);
-                }
-            });
-            within.push(odd.into_iter().filter(|&(around, odd)| odd && !touch(ring, around)).map(|(around, _)| around).collect());
-        }
-        for &(a, b) in contacts.keys() {
-            for (ring, around) in [(a, b), (b, a)] {
-                if self.clear_of(ring, around).is_some_and(|p| self.contains(tree, around, p)) {
-                    within[ring].push(around);
-                }
+    fn within(&self, contacts: &Touching) -> Vec<Vec<usize>> {
+        let around = |(ring, chain): (usize, &&Chain)| {
+            let around = self.index.around(chain.vertices[0].truncate());
+            around.into_iter().filter(|&other| other != ring && !contacts.contains_key(&(other, ring))).collect()
+        };
+        let mut within: Vec<Vec<usize>> = self.chains.iter().enumerate().map(around).collect();
+        for (&(around, ring), contacts) in contacts {
+            if self.inside(around, contacts) {
+                within[ring].push(around);
             }
         }
         within
     }
 
-    /// A place on a ring that does not lie on another, which it touches: a vertex, or else the middle of a side.
-    fn clear_of(&self, ring: usize, other: usize) -> Option<DVec2> {
-        let of = |ring: usize| self.segments.iter().filter(move |s| s.ring == ring);
-        let on = |p: DVec2| of(other).any(|s| meeting(s.a, s.b, p, p) != Meeting::Apart);
-        of(ring).map(|s| s.a).find(|&p| !on(p)).or_else(|| of(ring).map(|s| 0.5 * (s.a + s.b)).find(|&p| !on(p)))
-    }
-
-    /// Whether `p`, not on the ring, lies inside it: an odd number of segments crosses the ray towards +x.
-    fn contains(&self, tree: &SegmentTree, ring: usize, p: DVec2) -> bool {
-        let mut inside = false;
-        tree.ray(p, |i| {
-            let s = self.segments[i];
-            if s.ring == ring && (s.a.y > p.y) != (s.b.y > p.y) {
-                let left = orient(s.a, s.b, p) > 0.0;
-                inside ^= left == (s.b.y > s.a.y);
-            }
-        });
-        inside
-    }
-
-    /// Twice the area of a ring, positive when counter-clockwise.
-    fn doubled_area(&self, ring: usize) -> f64 {
-        let origin = self.chains[ring].vertices[0].truncate();
-        self.segments.iter().filter(|s| s.ring == ring).map(|s| (s.a - origin).perp_dot(s.b - origin)).sum()
+    /// Whether a ring that touches another lies inside it: on the side its inside is on.
+    fn inside(&self, ring: usize, contacts: &Contacts) -> bool {
+        contacts.left == self.left_about[ring]
     }
 }
 

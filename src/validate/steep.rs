@@ -18,7 +18,10 @@ pub fn check_steepness(line: &Line, label: &str, slope: Slope) -> Result<(), Def
             steepest = steepest.max(gradient(chain.segment(i)).abs());
         }
     }
-    let help = || format!("flatten the line there, or ask for {} or steeper", flattest(steepest));
+    let help = || match flattest(steepest) {
+        Some(slope) => format!("flatten the line there, or ask for {slope} or steeper"),
+        None => "flatten the line there: it is upright, or nearly so, and no slope holds it".to_owned(),
+    };
     for (chain, locator) in line.chains.iter().zip(Locator::of_chains(label, &line.chains)) {
         let is_steep = |i: usize| {
             let (a, b) = chain.segment(i);
@@ -83,8 +86,8 @@ fn gradient((a, b): (glam::DVec3, glam::DVec3)) -> f64 {
 }
 
 /// The flattest slope in three significant digits of its run that is steeper than `gradient`: `1:1.21`, or `1V:0.5H` where
-/// `1:0.5` would be ambiguous.
-fn flattest(gradient: f64) -> String {
+/// `1:0.5` would be ambiguous. `None` beyond the slopes that can be asked for ([`Slope::ACCEPTED`]).
+fn flattest(gradient: f64) -> Option<String> {
     // A gradient of up to 2 · INPUT_LIMIT over MERGE_DISTANCE needs 18 decimals.
     let limit = 1.0 / gradient;
     // A limit that is a power of ten counts as just below it: 0.999 follows 1, not 0.99.
@@ -97,7 +100,8 @@ fn flattest(gradient: f64) -> String {
     }
     let n = digits / scale;
     let text = fixed(n, decimals as usize);
-    if n >= 1.0 { format!("1:{text}") } else { format!("1V:{text}H") }
+    let text = if n >= 1.0 { format!("1:{text}") } else { format!("1V:{text}H") };
+    Some(text).filter(|text| text.parse::<Slope>().is_ok())
 }
 
 #[cfg(test)]
@@ -115,6 +119,7 @@ mod tests {
     #[test]
     fn the_cure_is_steeper_and_the_next_flatter_is_not() {
         // 1 / 0.82 = 1.2195…
+        let flattest = |gradient: f64| flattest(gradient).unwrap();
         assert_eq!(flattest(0.82), "1:1.21");
         // Round limits: the slope itself would be as steep as the gradient.
         assert_eq!(flattest(0.5), "1:1.99");
@@ -129,6 +134,18 @@ mod tests {
             assert!(1.0 / n > gradient, "{gradient}: {text}");
             assert!(1.0 / (n * 1.02) <= gradient, "{gradient}: {text} is steeper than it need be");
         }
+    }
+
+    #[test]
+    fn a_cure_can_be_asked_for_or_is_not_given() {
+        assert_eq!(flattest(9_000.0).as_deref(), Some("1V:0.000111H"));
+        assert_eq!((flattest(9_999.9).as_deref(), flattest(10_000.0), flattest(250_000.0)), (Some("1V:0.0001H"), None, None));
+        let upright = line(&[[0., 0., 0.], [1e-5, 0., 5.]], Role::Open);
+        let message = check_steepness(&upright, "a.csv", Slope::from_ratio(0.8).unwrap()).unwrap_err().to_string();
+        assert!(
+            message.ends_with("help: flatten the line there: it is upright, or nearly so, and no slope holds it"),
+            "{message}"
+        );
     }
 
     #[test]

@@ -1,41 +1,10 @@
-//! How two segments meet, and on which side of a ring another ring passes where they touch.
+//! On which side of a ring another ring passes where they touch.
 
 use super::Segment;
 pub(super) use crate::kernel::orientation::doubled_area as orient;
+use crate::kernel::segment::between;
 use crate::model::Chain;
 use glam::DVec2;
-
-/// How two segments meet.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Meeting {
-    /// No common point.
-    Apart,
-    /// They cross in the inside of both, at about this point.
-    Cross(DVec2),
-    /// An end of one lies on the other: this end.
-    Touch(DVec2),
-}
-
-/// How the segments `ab` and `cd` meet. Exact, but for the place of a crossing.
-pub(super) fn meeting(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Meeting {
-    let (on_a, on_b) = (orient(c, d, a), orient(c, d, b));
-    let (on_c, on_d) = (orient(a, b, c), orient(a, b, d));
-    let apart = |u: f64, v: f64| (u > 0.0 && v < 0.0) || (u < 0.0 && v > 0.0);
-    if apart(on_a, on_b) && apart(on_c, on_d) {
-        return Meeting::Cross(a + (b - a) * (on_a / (on_a - on_b)));
-    }
-    for (side, p, q, r) in [(on_c, c, a, b), (on_d, d, a, b), (on_a, a, c, d), (on_b, b, c, d)] {
-        if side == 0.0 && within(p, q, r) {
-            return Meeting::Touch(p);
-        }
-    }
-    Meeting::Apart
-}
-
-/// Whether `p`, collinear with `q` and `r`, lies between them.
-fn within(p: DVec2, q: DVec2, r: DVec2) -> bool {
-    p.cmpge(q.min(r)).all() && p.cmple(q.max(r)).all()
-}
 
 /// Whether the corner turns straight back.
 pub(super) fn is_spike(before: DVec2, corner: DVec2, after: DVec2) -> bool {
@@ -66,12 +35,12 @@ impl Contacts {
     /// Adds the contacts of segment `s` of ring `first` with segment `t` of ring `second`, which touch.
     pub(super) fn add(&mut self, first: &Chain, s: Segment, second: &Chain, t: Segment) {
         for p in [t.a, t.b] {
-            if orient(s.a, s.b, p) == 0.0 && within(p, s.a, s.b) {
+            if orient(s.a, s.b, p) == 0.0 && between(p, [s.a, s.b]) {
                 self.at(first, s, second, t, p);
             }
         }
         for p in [s.a, s.b] {
-            if p != t.a && p != t.b && orient(t.a, t.b, p) == 0.0 && within(p, t.a, t.b) {
+            if p != t.a && p != t.b && orient(t.a, t.b, p) == 0.0 && between(p, [t.a, t.b]) {
                 self.at(first, s, second, t, p);
             }
         }

@@ -1,3 +1,4 @@
+use super::contact::is_spike;
 use super::*;
 use crate::kernel::testing::Random;
 use crate::model::Place;
@@ -144,7 +145,7 @@ fn agrees_with_comparing_every_pair() {
             expected |= is_spike(corner(i), corner(i + 1), corner(i + 2));
             for j in i + 2..m {
                 if (j + 1) % m != i {
-                    expected |= meeting(corner(i), corner(i + 1), corner(j), corner(j + 1)) != Meeting::Apart;
+                    expected |= meeting([corner(i), corner(i + 1)], [corner(j), corner(j + 1)]) != Meeting::Apart;
                 }
             }
         }
@@ -189,9 +190,33 @@ fn crossing_agrees_with_the_intersection_matrix() {
         touching += usize::from(!expected && meets(CoordPos::OnBoundary, CoordPos::OnBoundary));
         // The hole of a polygon lies inside exactly if the polygon covers it.
         let found = defects(&[outer("a", 0, &a), ring_of_hole(&b)]);
-        assert_eq!(found.is_empty(), matrix.is_covers() && !matrix.is_equal_topo(), "{a:?} {b:?}: {found:?}");
+        let expected = matrix.is_covers() && !matrix.is_equal_topo();
+        assert_eq!(found.is_empty(), expected, "{a:?} {b:?}: {found:?}");
+        // The order of the rings does not matter.
+        let found = defects(&[ring_of_hole(&b), outer("a", 0, &a)]);
+        assert_eq!(found.is_empty(), expected, "{b:?} in {a:?}: {found:?}");
     }
     assert!(crossing > 1000 && touching > 1000 && same > 10, "{crossing} {touching} {same}");
+}
+
+/// A ring beside and one inside another, with which they share a stretch of many vertices.
+#[test]
+fn long_common_boundaries_take_no_time() {
+    const N: u32 = 20_000;
+    let common: Vec<(f64, f64)> = (0..=N).map(|i| (f64::from(i), (0.37 * f64::from(i)).sin())).collect();
+    let right = f64::from(N);
+    let above = [&common[..], &[(right, 100.), (0., 100.)]].concat();
+    let below = [&common[..], &[(right, -50.), (0., -50.)]].concat();
+    let whole = outer("whole", 2, &[(-1., -60.), (right + 1., -60.), (right + 1., 110.), (-1., 110.)]);
+    let inside = [&common[..], &[(right, 60.), (0., 60.)]].concat();
+    let start = std::time::Instant::now();
+    let chains = [outer("below", 0, &below), outer("above", 1, &above), whole, outer("inside", 3, &inside)];
+    let mut found = Defects::default();
+    let nested = check("a.geojson", &chains, &mut found);
+    assert!(found.is_empty(), "{found}");
+    // `inside` lies in `above` and that in `whole`: `inside` is an island again.
+    assert_eq!(nested, [(0, 2), (1, 2)]);
+    assert!(start.elapsed() < std::time::Duration::from_secs(20), "{:?}", start.elapsed());
 }
 
 fn ring_of_hole(points: &[(f64, f64)]) -> Chain {
