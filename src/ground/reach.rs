@@ -35,7 +35,10 @@ const WIDER: f64 = 1e-6;
 /// columns and rows of vertices, found once, and nearly all triangles have their vertices in one cell or two. Later ones leave
 /// out whole blocks of triangles by the box of their cells.
 pub(crate) struct Bounds {
+    /// Lower left corner of the ground.
     origin: DVec2,
+    /// Upper right corner: what lies on it is on the ground, wherever rounding puts the last cell.
+    far: DVec2,
     cell: DVec2,
     size: [usize; 2],
     /// Lowest and highest ground of each cell; the wrong way round where there is none.
@@ -75,8 +78,16 @@ impl Bounds {
         let across = |a: f64, b: f64| (cells * a / b).sqrt().ceil().clamp(1.0, MOST_CELLS);
         let size = [across(extent.x, extent.y) as usize, across(extent.y, extent.x) as usize];
         let cell = extent / DVec2::new(size[0] as f64, size[1] as f64);
-        let mut bounds =
-            Self { origin: bounds.lo, cell, size, range: Vec::new(), places: Vec::new(), boxes: Vec::new(), area: 0.0 };
+        let mut bounds = Self {
+            origin: bounds.lo,
+            far: bounds.hi,
+            cell,
+            size,
+            range: Vec::new(),
+            places: Vec::new(),
+            boxes: Vec::new(),
+            area: 0.0,
+        };
         let place = |v: &DVec3| [bounds.index(v.x, 0) as u16, bounds.index(v.y, 1) as u16];
         bounds.places = terrain.vertices.par_iter().map(place).collect();
         let length = terrain.triangles.len().div_ceil(PARTS).next_multiple_of(BLOCK);
@@ -253,8 +264,7 @@ impl Bounds {
     fn cells_of(&self, corners: &[DVec2; 3], mut visit: impl FnMut(usize)) {
         let [a, b, c] = *corners;
         let (lo, hi) = (a.min(b).min(c), a.max(b).max(c));
-        let far = self.origin + self.cell * DVec2::new(self.size[0] as f64, self.size[1] as f64);
-        if hi.cmplt(self.origin).any() || lo.cmpgt(far).any() {
+        if hi.cmplt(self.origin).any() || lo.cmpgt(self.far).any() {
             return;
         }
         let (x0, x1) = (self.index(lo.x, 0), self.index(hi.x, 0));

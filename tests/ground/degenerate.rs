@@ -33,6 +33,20 @@ fn ground_vertices_on_line_and_daylight() {
     }
 }
 
+/// A vertex that no triangle uses may lie anywhere: nothing changes but the number of vertices.
+#[test]
+fn an_unused_vertex_far_away() {
+    let height = |x: f64, y: f64| 2.0 * (0.11 * (x - 5e5)).sin() * (0.07 * (y - 5.4e6) + 1.0).cos();
+    let ground = Ground::grid([[499_940.0, 5_399_940.0], [500_060.0, 5_400_060.0]], 24, 24, height);
+    let site = Site::new(vec![rectangle([499_992.3, 5_399_991.7, 4.1], 16.0, 16.0)], 0.5, ground);
+    let mut with = site.clone();
+    with.ground.vertices.push([0.0; 3]);
+    let (plain, with) = (build(&site, ""), build(&with, ""));
+    for figure in ["volumes.cut", "volumes.fill", "surface.slope_area", "daylight.length"] {
+        assert_eq!(plain.number(figure), with.number(figure), "{figure}");
+    }
+}
+
 /// A line along edges of rolling ground: on it to the last bit at first, then above, then below.
 #[test]
 fn line_along_ground_edges() {

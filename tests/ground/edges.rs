@@ -139,7 +139,7 @@ fn pads_about_their_ground() {
 #[test]
 fn two_halves_make_a_whole() {
     let random = &mut Random::new(77);
-    for seed in 0..24 {
+    for seed in 0..24_u32 {
         let name = format!("pad {seed}");
         let whole = |random: &mut Random, lo: f64, hi: f64| random.between(lo, hi + 1.0).floor();
         let (x, y, z) = (whole(random, -8.0, -2.0), whole(random, -6.0, 0.0), whole(random, -2.0, 2.0));
@@ -156,7 +156,9 @@ fn two_halves_make_a_whole() {
         let mut sum = Figures::default();
         let mut bound = 0.0;
         for left in [true, false] {
-            let site = Site::new(vec![line.clone()], 0.5, half(left)).cut_slope(1.0);
+            // The other half of the vertices is there now and then, used by nothing.
+            let ground = if seed % 2 == 0 { half(left) } else { half(left).compact() };
+            let site = Site::new(vec![line.clone()], 0.5, ground).cut_slope(1.0);
             let built = build(&site, "--allow-open");
             sound(&format!("{name}, {left}"), &site, &built);
             sum = sum + built.figures();

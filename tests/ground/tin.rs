@@ -124,6 +124,21 @@ impl Ground {
         Self { vertices: self.vertices.clone(), triangles }
     }
 
+    /// Without the vertices no triangle uses.
+    pub(crate) fn compact(&self) -> Self {
+        let mut numbers = vec![None; self.vertices.len()];
+        let mut compact = Self { vertices: Vec::new(), triangles: Vec::new() };
+        for triangle in &self.triangles {
+            compact.triangles.push(triangle.map(|v| {
+                *numbers[v].get_or_insert_with(|| {
+                    compact.vertices.push(self.vertices[v]);
+                    compact.vertices.len() - 1
+                })
+            }));
+        }
+        compact
+    }
+
     /// As OBJ text, numbers with all their digits.
     pub(crate) fn obj(&self) -> String {
         let mut text = String::from("# made by rule\n");
