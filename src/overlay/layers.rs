@@ -14,6 +14,9 @@ use glam::{DVec2, DVec3};
 /// that all lie on each other would have a cell for each pair.
 const MOST_CELLS: usize = 1 << 16;
 
+/// Cells at the rim that are looked at, before all are counted. More than this are too many there as well.
+const MOST_AT_RIM: usize = 64 * MOST_CELLS;
+
 /// Plan area that lies double.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Double {
@@ -23,7 +26,8 @@ pub(super) struct Double {
     pub(super) at: DVec2,
 }
 
-/// Lays triangles at the rim on the mesh itself, until `most` is exceeded. `None` if nothing lies double.
+/// Lays triangles at the rim on the mesh itself; all of them, unless `most` is exceeded and there are very many cells. `None` if
+/// nothing lies double.
 ///
 /// Across an edge between two triangles that both face up, the number of layers does not change. So where there is more than
 /// one, there is also a triangle at the rim that lies on others: if none does, the mesh has one layer everywhere. If some do, that
@@ -32,15 +36,18 @@ pub(super) fn at_rim(mesh: &Linked<'_>, most: f64) -> Option<Double> {
     let mut walker = Walker::new(mesh);
     let mut found: Option<Double> = None;
     let mut area = Sum::default();
+    let mut cells = 0;
     for &t in &mesh.rim {
         let patch = Patch::new(mesh.fabric.corners(t));
         walker.over_all(&patch, |u, ring| {
             if u != t && ring.has_area(&patch, &mesh.fabric.corners(u)) {
+                // Half of its area, which is half the measure.
                 area.add(0.25 * ring.measure().0 / patch.double_area);
+                cells += 1;
                 found.get_or_insert_with(|| Double { area: 0.0, at: middle(&patch, ring) });
             }
         });
-        if area.value() > most {
+        if cells > if area.value() > most { MOST_CELLS } else { MOST_AT_RIM } {
             break;
         }
     }

@@ -252,19 +252,18 @@ fn not_empty(mesh: &Fabric, surface: Surface) -> Result<(), OverlayError> {
 }
 
 /// What of a mesh lies on itself.
-struct Layers<'a> {
-    mesh: &'a Linked<'a>,
+struct Layers {
     surface: Surface,
     frame: Frame,
     /// If anything does: a place of it, and all of it.
     double: Option<(DVec2, Loose)>,
 }
 
-impl<'a> Layers<'a> {
+impl Layers {
     /// Refuses a mesh of which more than [`MOST_DOUBLE`] lies on itself.
-    fn of(mesh: &'a Linked<'a>, surface: Surface, frame: Frame) -> Result<Self, OverlayError> {
+    fn of(mesh: &Linked<'_>, surface: Surface, frame: Frame) -> Result<Self, OverlayError> {
         let most = MOST_DOUBLE * mesh.fabric.kept;
-        let layers = |double| Self { mesh, surface, frame, double };
+        let layers = |double| Self { surface, frame, double };
         let Some(seen) = layers::at_rim(mesh, most) else { return Ok(layers(None)) };
         let (cells, all) = if seen.area > most { (Loose::default(), false) } else { layers::cells(mesh) };
         let (area, found) = (cells.area().max(seen.area), layers(Some((seen.at, cells))));

@@ -5,7 +5,7 @@ use crate::common::oracle::Polyline;
 use crate::figures::Figures;
 use crate::oracle::sample;
 use crate::planar::{self, Tilt};
-use crate::run::build;
+use crate::run::{Folder, build, options};
 use crate::site::Site;
 use crate::tin::{Ground, about};
 
@@ -256,8 +256,16 @@ fn sections_of_one_side_of_a_fine_arc() {
     let points: Vec<[f64; 3]> = (0..=400).map(at).map(|(sin, cos)| [200.0 * sin, 200.0 - 200.0 * cos, 10.0]).collect();
     let ground = Ground::grid([[-60.0, -60.0], [200.0, 200.0]], 3, 3, |_, _| 0.0);
     let site = Site::new(vec![open(&points)], 1.0 / 1.5, ground).tolerance(0.01);
-    let built = build(&site, "--side left --allow-open --stations 10");
-    let end_areas = built.number("volumes.end_area.fill");
+    let folder = Folder::of(&site);
+    let outputs = "-o design.obj --report report.json --quiet";
+    folder
+        .run(&format!(
+            "build line.geojson --terrain ground.obj {} --side left --allow-open --stations 10 {outputs}",
+            options(&site)
+        ))
+        .done();
+    let report: serde_json::Value = serde_json::from_str(&folder.read("report.json")).unwrap();
+    let end_areas = report["volumes"]["end_area"]["fill"].as_f64().unwrap();
     assert!((end_areas - 7500.0).abs() < 20.0, "{end_areas}");
 }
 

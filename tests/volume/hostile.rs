@@ -119,9 +119,9 @@ fn a_mesh_on_itself_is_refused() {
         }
         other => panic!("{other:?}"),
     };
-    refused(between(&twice, &ground, None), Surface::Design, 1.0);
-    refused(between(&ground, &twice, None), Surface::Existing, 1.0);
-    refused(slopegen::overlay::to_elevation(&twice, 0.5, None), Surface::Existing, 1.0);
+    refused(between(&twice, &ground, None), Surface::Design, 1.99);
+    refused(between(&ground, &twice, None), Surface::Existing, 1.99);
+    refused(slopegen::overlay::to_elevation(&twice, 0.5, None), Surface::Existing, 1.99);
     // Also where the other mesh lies wholly in the part that is double.
     let inner = square(DVec2::new(2.9, 3.9), 0.2, 4.0);
     assert!(matches!(between(&inner, &twice, None), Err(OverlayError::Double { .. })));
