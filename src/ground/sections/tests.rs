@@ -164,7 +164,8 @@ fn lesser_bends_do_not_end_a_section() {
 #[test]
 fn the_line_may_stand_off_its_axis() {
     let strip = |from, to| [(0.0, from), (10.0, from), (10.0, to), (0.0, to)].map(|(x, y)| corner(x, y, 1.0)).to_vec();
-    let cases: [(&[(f64, f64)], f64, f64, f64); 6] = [
+    type Strips = &'static [(f64, f64)];
+    let cases: [(Strips, f64, f64, f64); 6] = [
         (&[(0.003, 1.0), (1.0, 3.0)], 3.0, 0.0, 2.997),
         (&[(-0.003, 0.002), (0.002, 3.0)], 3.0, 0.0, 3.003),
         (&[(-3.0, -0.003)], 0.0, 3.0, 2.997),
