@@ -6,19 +6,35 @@ mod common;
 use common::build::{build, design, line, mirrored_design, open, rectangle, upside_down};
 use common::oracle::Polyline;
 use glam::DVec3;
+use slopegen::formation::{self, Crossfall, Formation};
 use slopegen::ground::{Stations, axes};
 use slopegen::model::{CurveKind, Design, Extent, Line, Part, Sheet};
 use slopegen::setout::{Along, Ends, Hand, Lie, Slopes, Stake, stakes};
 
 /// Stakes of a surface without ground, every `spacing`.
 fn staked(line: &Line, design: &Design, spacing: f64) -> Vec<Stake> {
-    let tin = build(line, design).tin;
+    let surface = build(line, design);
+    let (tin, lines) = (&surface.tin, &surface.lines);
     let stations = Stations::new(axes(line, &tin.frame), Some(spacing)).unwrap();
     let slopes = match design.sheet {
         Sheet::Falling => Slopes { fill: Some(design.slope), cut: None },
         Sheet::Rising => Slopes { cut: Some(design.slope), fill: None },
     };
-    stakes(&Lie { line, design: &tin, ground: None, stations: &stations, slopes, tolerance: design.tolerance })
+    let found = stakes(&Lie { line, design: tin, lines, ground: None, stations: &stations, slopes, tolerance: design.tolerance });
+    assert_eq!(found.missing, 0);
+    found.stakes
+}
+
+/// Rows of every station: of both ways on the left, of both ways on the right.
+fn rows(stakes: &[Stake]) -> Vec<[usize; 2]> {
+    let count = |of: &[Stake], hand| of.iter().filter(|s| s.hand == hand).count();
+    stakes.chunk_by(|a, b| a.station == b.station).map(|of| [Hand::Left, Hand::Right].map(|hand| count(of, hand))).collect()
+}
+
+/// A line with a vertex every 1 m, of which most are left out: at most 8° to the east, curves of 1200 m or more, grades of 2.3 %.
+fn winding(length: u32) -> Polyline {
+    let at = |x: f64| [x, 100.0 * (x / 800.0).sin() + 0.5 * (x / 37.0).sin(), 10.0 + 2.0 * (x / 90.0).sin()];
+    open(&(0..=length).map(|i| at(i.into())).collect::<Vec<_>>())
 }
 
 #[track_caller]
@@ -109,6 +125,75 @@ fn rings_have_stakes_on_one_side() {
     for stake in &found {
         assert_eq!(stake.hand, Hand::Right);
         assert!((stake.distance() - 5.0).abs() < 2e-3, "{stake:?}");
+    }
+}
+
+/// Lines of many vertices, most of them left out of the mesh: two stakes for each station and side with a slope, none on the others;
+/// rulings have the slope asked for and reach the end. Depth and gradient are those of the given line.
+#[test]
+fn simplified_lines_have_all_their_stakes() {
+    let given = line(&[winding(900)]);
+    let length = given.chains[0].stations()[900];
+    let road = Formation { width: 7.0, crossfall: Crossfall::default(), chord: 3e-3 };
+    let road = formation::widen(&given, "winding", &road).unwrap().line;
+    for (of, offset) in [(&given, 0.0), (&road, 3.5)] {
+        let wanted = Design { tolerance: 0.01, ..design(0.5, Extent::Elevation(0.0)) };
+        assert!(build(of, &wanted).simplified > 500);
+        let found = staked(of, &wanted, 7.0);
+        let of_all = rows(&found);
+        assert_eq!(of_all.len() as f64, (length / 7.0).ceil() + 1.0);
+        assert!(of_all.iter().all(|rows| *rows == [2, 2]), "{of_all:?}");
+        for stake in &found {
+            let z = stake.hinge.z;
+            assert!((stake.offset - offset).abs() < 0.01 && stake.ends == Ends::End, "{stake:?}");
+            assert!((stake.height() + z).abs() < 1e-6, "{stake:?}");
+            // A grade of 2.3 % flattens a section by 1 − √(1 − 0.046²) = 0.1 %.
+            assert!((stake.distance() * 0.5 / z - 1.0).abs() < 3e-3, "{stake:?}");
+        }
+    }
+}
+
+/// Pads with vertices beside the line, on either side and within what the tolerance allows, and with finely rounded corners: on the
+/// outside 5 high at 1 in 2, on the inside nothing.
+#[test]
+fn rings_of_many_vertices_have_stakes_outside_only() {
+    let arc = |[x, y]: [f64; 2], from: f64| {
+        (0..=64)
+            .map(move |i| (from + f64::from(i) / 64.0) * std::f64::consts::FRAC_PI_2)
+            .map(move |a| [x + 5.0 * a.cos(), y + 5.0 * a.sin(), 5.0])
+    };
+    let corners = [([5.0, 5.0], 2.0), ([35.0, 5.0], 3.0), ([35.0, 15.0], 0.0), ([5.0, 15.0], 1.0)];
+    let rounded: Vec<[f64; 3]> = corners.into_iter().flat_map(|(at, from)| arc(at, from)).collect();
+    let dented =
+        |y: f64| vec![[0.0, 0.0, 5.0], [40.0, 0.0, 5.0], [80.0, 0.0, 5.0], [80.0, 40.0, 5.0], [40.0, y, 5.0], [0.0, 40.0, 5.0]];
+    for (points, spacing, least) in [(rounded, 1.0, 100), (dented(39.997), 20.0, 12), (dented(40.003), 20.0, 12)] {
+        for reversed in [false, true] {
+            let mut points = points.clone();
+            if reversed {
+                points.reverse();
+            }
+            let wanted = Design { tolerance: 0.01, ..design(0.5, Extent::Elevation(0.0)) };
+            let pad = line(&[Polyline { points, closed: true }]);
+            assert!(build(&pad, &wanted).simplified > 0);
+            let found = staked(&pad, &wanted, spacing);
+            let expected = if reversed { [2, 0] } else { [0, 2] };
+            let of_all = rows(&found);
+            assert!(of_all.len() >= least && of_all.iter().all(|rows| *rows == expected), "{of_all:?}");
+            assert!(found.iter().all(|s| s.offset < 7e-3 && s.ends == Ends::End), "{found:?}");
+            assert!(found.iter().all(|s| s.station.rem_euclid(40.0) == 0.0 || (s.distance() - 10.0).abs() < 0.02), "{found:?}");
+        }
+    }
+}
+
+/// A bend of 0.5°, 10 above the end: on either side its rulings are 20 long and have the slope asked for, as those beside it.
+#[test]
+fn slight_bends_do_not_close_up() {
+    let (sin, cos) = 0.5_f64.to_radians().sin_cos();
+    let bend = line(&[open(&[[0.0, 0.0, 10.0], [50.0, 0.0, 10.0], [50.0 + 50.0 * cos, 50.0 * sin, 10.0]])]);
+    let found = staked(&bend, &design(0.5, Extent::Elevation(0.0)), 10.0);
+    assert_eq!(found.len(), 11 * 4);
+    for stake in found {
+        assert!((stake.distance() - 20.0).abs() < 2e-3 && stake.ends == Ends::End, "{stake:?}");
     }
 }
 

@@ -128,7 +128,9 @@ impl<'a> Site<'a> {
         })?;
         let patch = self.patch(&shape, whole);
         let mut notes = patch.inspect(&self.terrain, self.label)?;
-        let stations = Stations::new(axes(self.line, &self.terrain.frame), options.stations)?;
+        // A third of it is for the line, in height as the slopes see it.
+        let slack = designs.iter().map(|design| design.tolerance / design.slope.ratio()).fold(0.0, f64::max);
+        let stations = Stations::new(axes(self.line, &self.terrain.frame), options.stations)?.standing_off(slack);
         let mut feeder = Feeder::new(&shape, &stations, options.keep, whole);
         let mut works = Flood::run(&shape, &patch, whole, &mut feeder);
         let fed = feeder.finish();

@@ -39,5 +39,5 @@ pub use haul::{Haul, mass_haul};
 pub use piece::{Axis, Corner, Piece, Pieces};
 pub use section_slope::{SectionSlope, section_slope};
 pub use sections::{Section, SectionFigures, Sectioned, Sections, sections_at};
-pub use stations::{MOST_STATIONS, Stations, TooManyStations, axes, place};
+pub use stations::{MOST_STATIONS, Spot, Stations, TooManyStations, axes, place};
 pub use tally::{Amounts, Deepest, Interval, Tallied, Tally};

@@ -1,6 +1,6 @@
 //! The side slope as other programs prescribe it: seen in a section perpendicular to the line.
 
-use crate::model::{Line, Slope};
+use crate::model::{Chain, Line, Slope};
 
 /// Flattest and steepest slope seen in sections.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,11 +15,16 @@ pub struct SectionSlope {
 ///
 /// The plane of a strip has the slope `k` in the direction of its rulings, which is perpendicular to the line only where that is
 /// level. Of its gradient vector, of length `k`, the component along the line is `γ`, so the one across is `√(k² − γ²)`.
-/// Segments as steep as the slope have no strip and are passed over; `None` if there is no other. Sectors at corners have no
-/// section.
+/// Segments as steep as the slope have no strip and are passed over, and so are the ends of roads, which lie across their axis;
+/// `None` if there is no other. Sectors at corners have no section.
 pub fn section_slope(line: &Line, slope: Slope) -> Option<SectionSlope> {
     let k = slope.ratio();
-    let segments = line.chains.iter().flat_map(|chain| (0..chain.segment_count()).map(|i| chain.segment(i)));
+    let across_axis = |chain: &Chain, i: usize| {
+        let stations = chain.axis.as_ref().map_or(&[][..], |axis| &axis.stations);
+        stations.get(i).zip(stations.get(i + 1)).is_some_and(|(from, to)| from == to)
+    };
+    let along = |chain: &'_ Chain| (0..chain.segment_count()).filter(|&i| !across_axis(chain, i)).collect::<Vec<_>>();
+    let segments = line.chains.iter().flat_map(|chain| along(chain).into_iter().map(|i| chain.segment(i)));
     let mut found: Option<SectionSlope> = None;
     for (a, b) in segments {
         let gradient = (b.z - a.z) / a.truncate().distance(b.truncate());
@@ -37,7 +42,7 @@ pub fn section_slope(line: &Line, slope: Slope) -> Option<SectionSlope> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Chain, Place, Role};
+    use crate::model::{Axis, Place, Role};
     use glam::DVec3;
 
     fn line(vertices: &[(f64, f64, f64)], role: Role) -> Line {
@@ -65,6 +70,18 @@ mod tests {
         // Gradients 0, 0.5 and 15/50 = 0.3: across, 1, √0.75 and √0.91.
         let found = section_slope(&line(&vertices, ring), Slope::from_ratio(1.0).unwrap()).unwrap();
         assert!((found.min.ratio() - 0.75f64.sqrt()).abs() < 1e-15 && found.max.ratio() == 1.0);
+    }
+
+    /// A road 8 wide on a grade of 0.1, its ends with a crossfall of 0.3: of slopes of 0.5 a section shows √(0.25 − 0.01) only, not
+    /// √(0.25 − 0.09) = 0.4.
+    #[test]
+    fn ends_of_roads_have_no_section() {
+        let vertices = [(0.0, 4.0, 0.0), (50.0, 4.0, 5.0), (50.0, -4.0, 7.4), (0.0, -4.0, 2.4)];
+        let mut road = line(&vertices, Role::Outer { polygon: 0 });
+        let stations = vec![0.0, 50.0, 50.0, 0.0, 0.0];
+        road.chains[0].axis = Some(Axis { name: "a".into(), length: 50.0, stations, sagitta: 0.0 });
+        let found = section_slope(&road, Slope::from_ratio(0.5).unwrap()).unwrap();
+        assert!((found.min.ratio() - 0.24_f64.sqrt()).abs() < 1e-15 && found.min == found.max, "{found:?}");
     }
 
     #[test]

@@ -57,7 +57,8 @@ pub struct SectionFigures {
 /// Gathers what sections cross.
 ///
 /// Platforms without an axis belong to no section. A section ends where the works end, and where they go on with slopes whose
-/// foot is further along the axis than one interval: there another part of the line has taken over, across a valley or a ridge.
+/// foot is further along the axis than the section has come: there another part of the line has taken over, across a valley or a
+/// ridge. Spacing has no part in it.
 #[derive(Debug)]
 pub struct Sections<'a> {
     stations: &'a Stations,
@@ -99,11 +100,11 @@ impl<'a> Sections<'a> {
         let mut sums = [Sum::default(); 4];
         for (i, axis) in self.stations.axes().iter().enumerate() {
             let breaks = self.stations.breaks(i);
-            let longest = self.stations.spacing().unwrap_or(axis.length);
+            let slack = self.stations.slack();
             let ring = axis.closed.then_some(axis.length);
             let planes = self.axes[i].planes();
             let sections: Vec<Section> =
-                planes.iter().zip(&mut self.chords[i]).map(|(plane, chords)| section(plane, chords, longest, ring)).collect();
+                planes.iter().zip(&mut self.chords[i]).map(|(plane, chords)| section(plane, chords, slack, ring)).collect();
             let mut intervals = Vec::with_capacity(breaks.len());
             for (k, ends) in breaks.windows(2).enumerate() {
                 // An axis without length has no sections.
@@ -135,16 +136,16 @@ pub fn sections_at<'a>(pieces: impl Iterator<Item = Piece<'a>>, stations: &Stati
     for piece in pieces.filter(|p| p.axis == u32::try_from(axis).ok() && p.corners.len() > 2 && p.part != Part::Ground) {
         fan.near(piece.corners, |i, plane| chords[i].extend(chord(plane, &piece)));
     }
-    let longest = stations.spacing().unwrap_or(course.length);
+    let slack = stations.slack();
     let ring = course.closed.then_some(course.length);
-    fan.planes().iter().zip(&mut chords).map(|(plane, chords)| section(plane, chords, longest, ring)).collect()
+    fan.planes().iter().zip(&mut chords).map(|(plane, chords)| section(plane, chords, slack, ring)).collect()
 }
 
 /// The section in a plane from what it crosses.
-fn section(plane: &Plane, chords: &mut [Chord], longest: f64, ring: Option<f64>) -> Section {
-    let (left, left_area) = outward(chords, plane.station, longest, ring);
+fn section(plane: &Plane, chords: &mut [Chord], slack: f64, ring: Option<f64>) -> Section {
+    let (left, left_area) = outward(chords, plane.station, slack, ring);
     chords.iter_mut().for_each(Chord::mirror);
-    let (right, right_area) = outward(chords, plane.station, longest, ring);
+    let (right, right_area) = outward(chords, plane.station, slack, ring);
     let area = CutFill { cut: left_area.cut + right_area.cut, fill: left_area.fill + right_area.fill };
     Section { station: plane.station, area, left, right }
 }

@@ -20,6 +20,7 @@ const AT_VERTEX: f64 = 1e-6;
 pub struct Stations {
     axes: Vec<Axis>,
     spacing: Option<f64>,
+    slack: f64,
     /// Of each axis: ends of its intervals, ascending, from 0 to its length; at least two.
     breaks: Vec<Vec<f64>>,
 }
@@ -68,7 +69,18 @@ impl Stations {
             }
         }
         let breaks = axes.iter().map(|axis| breaks(axis.length, spacing)).collect();
-        Ok(Self { axes, spacing, breaks })
+        Ok(Self { axes, spacing, slack: 0.0, breaks })
+    }
+
+    /// The same for works that stand off the axes by up to `slack`, in plan: the line they are built from is a simplified one.
+    #[must_use]
+    pub fn standing_off(self, slack: f64) -> Self {
+        Self { slack, ..self }
+    }
+
+    /// How far the works may stand off the axes, in plan.
+    pub fn slack(&self) -> f64 {
+        self.slack
     }
 
     /// The axes.
@@ -122,28 +134,51 @@ pub(super) fn interval_of(breaks: &[f64], station: f64) -> usize {
     begun.saturating_sub(1).min(breaks.len().saturating_sub(2))
 }
 
+/// Where a station lies on an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spot {
+    /// A segment that the station lies on, counted along the axis.
+    pub segment: usize,
+    /// The share of it before the station; 0 or 1 at a vertex.
+    pub share: f64,
+    /// The segment that comes in and the one that goes out: between vertices both are the same, at an end of an open axis one is
+    /// missing.
+    pub segments: [Option<usize>; 2],
+}
+
+impl Spot {
+    /// The spot of a station; `None` on an axis without segments.
+    pub fn of(axis: &Axis, station: f64) -> Option<Self> {
+        let line = &axis.line;
+        let count = line.len().checked_sub(1).filter(|n| *n > 0)?;
+        let i = line.partition_point(|v| v.1 <= station).saturating_sub(1).min(count - 1);
+        let (s0, s1) = (line[i].1, line[i + 1].1);
+        let before = if i > 0 { Some(i - 1) } else { axis.closed.then_some(count - 1) };
+        let after = if i + 1 < count { Some(i + 1) } else { axis.closed.then_some(0) };
+        let (share, segments) = if station - s0 <= AT_VERTEX {
+            (0.0, [before, Some(i)])
+        } else if s1 - station <= AT_VERTEX {
+            (1.0, [Some(i), after])
+        } else {
+            ((station - s0) / (s1 - s0), [Some(i), Some(i)])
+        };
+        Some(Self { segment: i, share, segments })
+    }
+}
+
 /// Point and unit direction of an axis at a station. At a vertex the direction is the mean of both neighbours.
 pub fn place(axis: &Axis, station: f64) -> Option<(DVec2, DVec2)> {
-    let line = &axis.line;
+    let spot = Spot::of(axis, station)?;
     let direction = |i: usize| {
-        let ends = line.get(i).zip(line.get(i + 1));
+        let ends = axis.line.get(i).zip(axis.line.get(i + 1));
         ends.map_or(DVec2::ZERO, |(a, b)| (b.0 - a.0).normalize_or_zero())
     };
-    let segments = line.len().checked_sub(1).filter(|n| *n > 0)?;
-    let i = line.partition_point(|v| v.1 <= station).saturating_sub(1).min(segments - 1);
-    let ((from, s0), (to, s1)) = (line[i], line[i + 1]);
-    let before = if i > 0 { Some(i - 1) } else { axis.closed.then_some(segments - 1) };
-    let after = if i + 1 < segments { Some(i + 1) } else { axis.closed.then_some(0) };
-    let (at, neighbour) = if station - s0 <= AT_VERTEX {
-        (from, before)
-    } else if s1 - station <= AT_VERTEX {
-        (to, after)
-    } else {
-        (from.lerp(to, (station - s0) / (s1 - s0)), None)
-    };
-    let own = direction(i);
+    let (from, to) = (axis.line[spot.segment].0, axis.line[spot.segment + 1].0);
+    let at = if spot.share == 1.0 { to } else { from.lerp(to, spot.share) };
+    let own = direction(spot.segment);
+    let [before, after] = spot.segments.map(|i| i.map_or(DVec2::ZERO, direction));
     // A line that turns back on itself has no mean direction there.
-    let mean = (own + neighbour.map_or(DVec2::ZERO, direction)).normalize_or_zero();
+    let mean = (before + after).normalize_or_zero();
     Some((at, if mean == DVec2::ZERO { own } else { mean }))
 }
 

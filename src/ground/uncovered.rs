@@ -7,10 +7,8 @@ use super::works::Works;
 use crate::kernel::sum::Sum;
 use crate::mesh::volume;
 use crate::model::{Note, Part};
+use crate::overlay::AREA_ROUNDING;
 use glam::DVec2;
-
-/// Platform area without ground up to this part of the whole is rounding.
-const AREA_ROUNDING: f64 = 1e-9;
 
 /// Length of line without ground up to this part of the whole is rounding.
 const LENGTH_ROUNDING: f64 = 1e-9;

@@ -24,18 +24,22 @@ pub(crate) fn opposites(vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
     for around in halves.each_mut() {
         if around.len() > MANY {
             around.sort_unstable_by_key(|&(half, far)| (far, half));
+            // In the order of their numbers, as below, but many that are alike are not all compared with each other.
+            for same in around.chunk_by(|one, other| one.1 == other.1) {
+                let of = |up| same.iter().map(|o| o.0).filter(move |&half| upwards(half) == up);
+                for (one, other) in of(true).zip(of(false)) {
+                    (opposite[one as usize], opposite[other as usize]) = (other, one);
+                }
+            }
+            continue;
         }
         for i in 0..around.len() {
             let (half, far) = around[i];
             if opposite[half as usize] != NONE {
                 continue;
             }
-            let later = around[i + 1..].iter().take_while(|o| around.len() <= MANY || o.1 == far);
-            let partner = later
-                .filter(|o| o.1 == far && opposite[o.0 as usize] == NONE)
-                .find(|o| upwards(o.0) != upwards(half))
-                .map(|o| o.0);
-            if let Some(partner) = partner {
+            let open = |o: &&(u32, u32)| o.1 == far && opposite[o.0 as usize] == NONE && upwards(o.0) != upwards(half);
+            if let Some(partner) = around[i + 1..].iter().find(open).map(|o| o.0) {
                 opposite[half as usize] = partner;
                 opposite[partner as usize] = half;
             }

@@ -23,6 +23,8 @@ pub(super) struct Fabric {
     pub(super) triangles: Vec<[u32; 3]>,
     /// Plan area of all triangles given, also of those left out.
     pub(super) area: f64,
+    /// Plan area of the triangles.
+    pub(super) kept: f64,
 }
 
 impl Fabric {
@@ -58,18 +60,20 @@ impl Fabric {
         for t in &mut kept {
             *t = t.map(|v| rank[v as usize]);
         }
+        let mut own = Sum::default();
         let lowest = |t: &[u32; 3]| t[0].min(t[1]).min(t[2]);
         let mut triangles = Buckets::new(vertices.len(), kept.iter().map(|t| (lowest(t), *t))).into_things();
         // Looked at only now, when triangles that follow each other have their corners near each other in memory.
         triangles.retain_mut(|t| {
             let double_area = double_area(t.map(|v| vertices[v as usize]));
-            area.add(0.5 * double_area.abs());
+            own.add(0.5 * double_area.abs());
             if double_area < 0.0 {
                 t.swap(1, 2);
             }
             double_area != 0.0
         });
-        Self { vertices, triangles, area: area.value() }
+        area.join(own);
+        Self { vertices, triangles, area: area.value(), kept: own.value() }
     }
 
     #[inline]

@@ -3,7 +3,7 @@
 use super::boxes::ALL;
 use super::fabric::{Fabric, Linked};
 use super::layers;
-use super::pieces;
+use super::pieces::{self, Loose};
 use super::tally;
 use crate::kernel::frame::Frame;
 use crate::kernel::plan_box::PlanBox;
@@ -17,7 +17,8 @@ pub const SAME_HEIGHT: f64 = 1e-6;
 /// Share of the plan area that rounding may add or take: less does not count as uncovered, or as lying double.
 pub const AREA_ROUNDING: f64 = 1e-9;
 
-/// Share of the plan area that may lie double before a mesh is refused: slivers along a seam, from rounded coordinates.
+/// Share of a plan area that may lie double before a mesh is refused, of the mesh and of what is compared: slivers along a seam, from
+/// rounded coordinates.
 pub const MOST_DOUBLE: f64 = 1e-6;
 
 /// One of the two surfaces.
@@ -80,7 +81,7 @@ pub struct Between {
     pub deepest_fill: Option<Depth>,
     /// Cells of the common refinement; none where a plane is taken for one of the surfaces.
     pub cells: usize,
-    /// Plan area seen to lie double in the design and in the existing mesh; less than [`MOST_DOUBLE`] of each.
+    /// Plan area that lies double in the design and in the existing mesh, of what is compared: no more than [`MOST_DOUBLE`] of it.
     pub double: [f64; 2],
 }
 
@@ -122,20 +123,24 @@ pub enum OverlayError {
     },
     /// A mesh lies on itself.
     #[error(
-        "triangles of the {} mesh lie on each other in plan\n   = {area:.3} or more of {of:.3} square units lie double, first near \
-         {:.3}, {:.3}",
-        .surface.name(), .at.x, .at.y
+        "triangles of the {} mesh lie on each other in plan\n   = {} or more of {of:.3} square units lie double, as near {:.3}, {:.3}",
+        .surface.name(), small(*.area), .at.x, .at.y
     )]
     Double {
         /// Which mesh.
         surface: Surface,
         /// Plan area seen to lie double.
         area: f64,
-        /// Plan area of all its triangles.
+        /// Plan area of the triangles that were looked at, or that the two meshes share.
         of: f64,
         /// A place in world coordinates.
         at: DVec2,
     },
+}
+
+/// A figure with three decimals, or three digits where those would show none.
+fn small(figure: f64) -> String {
+    if figure >= 1e-3 { format!("{figure:.3}") } else { format!("{figure:.3e}") }
 }
 
 fn boxed(name: &str, [lo, hi]: &[DVec2; 2]) -> String {
@@ -168,12 +173,14 @@ pub fn between(design: &Terrain, existing: &Terrain, within: Option<&Terrain>) -
     not_empty(&d, Surface::Design)?;
     not_empty(&e, Surface::Existing)?;
     let (linked_design, linked_existing) = rayon::join(|| Linked::new(&d), || Linked::new(&e));
-    let layers =
-        rayon::join(|| single(&linked_design, Surface::Design, frame), || single(&linked_existing, Surface::Existing, frame));
-    let double = [layers.0?, layers.1?];
-    let (tally, design_area, existing_area) = if let Some(area) = &area {
-        let area = Linked::new(area);
-        let [cut_design, cut_existing] = [pieces::within(&d, &area), pieces::within(&e, &area)];
+    let layers = rayon::join(
+        || Layers::of(&linked_design, Surface::Design, frame),
+        || Layers::of(&linked_existing, Surface::Existing, frame),
+    );
+    let (design_layers, existing_layers) = (layers.0?, layers.1?);
+    let linked_area = area.as_ref().map(Linked::new);
+    let (tally, design_area, existing_area) = if let Some(area) = &linked_area {
+        let [cut_design, cut_existing] = [pieces::within(&d, area), pieces::within(&e, area)];
         (tally::sweep(&cut_design, &linked_existing), cut_design.area(), cut_existing.area())
     } else if d.triangles.len() >= e.triangles.len() {
         // The finer mesh is laid over the coarser one: its triangles have few cells each, which lie near each other.
@@ -185,7 +192,7 @@ pub fn between(design: &Terrain, existing: &Terrain, within: Option<&Terrain>) -
     let smaller = design_area.min(existing_area);
     if tally.cells == 0 || tally.common() <= AREA_ROUNDING * smaller {
         let world = |b: &PlanBox| [b.lo, b.hi].map(|p| frame.to_world(p.extend(0.0)).truncate());
-        return Err(match area {
+        return Err(match &area {
             Some(area) if design_area == 0.0 || existing_area == 0.0 => {
                 let missed = if design_area == 0.0 { (Surface::Design, &boxes[0]) } else { (Surface::Existing, &boxes[1]) };
                 OverlayError::Outside { surface: missed.0, mesh: world(missed.1), within: world(&area.whole()) }
@@ -193,13 +200,19 @@ pub fn between(design: &Terrain, existing: &Terrain, within: Option<&Terrain>) -
             _ => OverlayError::Apart { design: world(&boxes[0]), existing: world(&boxes[1]) },
         });
     }
+    let common = tally.common();
+    let double = [
+        design_layers.in_common(Some(&linked_existing), linked_area.as_ref(), common)?,
+        existing_layers.in_common(Some(&linked_design), linked_area.as_ref(), common)?,
+    ];
     let mut between = tally.into_between(frame, design_area, existing_area);
-    (between.double, between.areas.within) = (double, area.map(|area| area.area));
+    (between.double, between.areas.within) = (double, area.as_ref().map(|area| area.area));
     Ok(between)
 }
 
 /// Cut and fill when `existing` is brought to the level of `elevation`, over all of it or within an area: cut is what lies above
-/// the plane, fill what is missing below. Places of depths are on the plane.
+/// the plane, fill what is missing below. Places of depths are on the plane. Within an area, what of it has no ground is design that
+/// is not covered.
 ///
 /// # Errors
 /// [`OverlayError`], as [`between`].
@@ -209,11 +222,12 @@ pub fn to_elevation(existing: &Terrain, elevation: f64, within: Option<&Terrain>
     let e = Fabric::new(existing, frame, &area.as_ref().map_or(ALL, Fabric::whole));
     not_empty(&e, Surface::Existing)?;
     let linked = Linked::new(&e);
-    let double = [0.0, single(&linked, Surface::Existing, frame)?];
-    let tally = match &area {
+    let layers = Layers::of(&linked, Surface::Existing, frame)?;
+    let linked_area = area.as_ref().map(Linked::new);
+    let tally = match area.as_ref().zip(linked_area.as_ref()) {
         None => tally::level(&e, elevation),
-        Some(area) => {
-            let part = pieces::within(&e, &Linked::new(area));
+        Some((area, linked_area)) => {
+            let part = pieces::within(&e, linked_area);
             if part.area() == 0.0 {
                 let world = |b: &PlanBox| [b.lo, b.hi].map(|p| frame.to_world(p.extend(0.0)).truncate());
                 let mesh = world(&shifted_box(existing, frame));
@@ -223,8 +237,11 @@ pub fn to_elevation(existing: &Terrain, elevation: f64, within: Option<&Terrain>
         }
     };
     let common = tally.common();
-    let mut between = tally.into_between(frame, common, common);
-    (between.double, between.areas.within) = (double, area.map(|area| area.area));
+    let double = [0.0, layers.in_common(None, linked_area.as_ref(), common)?];
+    let within = area.as_ref().map(|area| area.area);
+    // The plane is the design: it goes as far as it was asked for.
+    let mut between = tally.into_between(frame, within.unwrap_or(common), common);
+    (between.double, between.areas.within) = (double, within);
     Ok(between)
 }
 
@@ -234,14 +251,41 @@ fn not_empty(mesh: &Fabric, surface: Surface) -> Result<(), OverlayError> {
     if mesh.area > 0.0 { Ok(()) } else { Err(OverlayError::Empty(surface)) }
 }
 
-/// Refuses a mesh that lies on itself. Returns what little does.
-fn single(mesh: &Linked<'_>, surface: Surface, frame: Frame) -> Result<f64, OverlayError> {
-    let found = layers::double(mesh);
-    if found.area > MOST_DOUBLE * mesh.fabric.area {
-        let at = frame.to_world(found.at.extend(0.0)).truncate();
-        return Err(OverlayError::Double { surface, area: found.area, of: mesh.fabric.area, at });
+/// What of a mesh lies on itself.
+struct Layers {
+    surface: Surface,
+    frame: Frame,
+    /// If anything does: a place of it, and all of it.
+    double: Option<(DVec2, Loose)>,
+}
+
+impl Layers {
+    /// Refuses a mesh of which more than [`MOST_DOUBLE`] lies on itself.
+    fn of(mesh: &Linked<'_>, surface: Surface, frame: Frame) -> Result<Self, OverlayError> {
+        let most = MOST_DOUBLE * mesh.fabric.kept;
+        let layers = |double| Self { surface, frame, double };
+        let Some(seen) = layers::at_rim(mesh, most) else { return Ok(layers(None)) };
+        let (cells, all) = if seen.area > most { (Loose::default(), false) } else { layers::cells(mesh) };
+        let (area, found) = (cells.area().max(seen.area), layers(Some((seen.at, cells))));
+        if all && area <= most { Ok(found) } else { Err(found.refused(seen.at, area, mesh.fabric.kept)) }
     }
-    Ok(found.area)
+
+    fn refused(&self, at: DVec2, area: f64, of: f64) -> OverlayError {
+        OverlayError::Double { surface: self.surface, area, of, at: self.frame.to_world(at.extend(0.0)).truncate() }
+    }
+
+    /// How much lies double over `other` and within `area`, where the two meshes share `common`; refused if that is too much of it.
+    /// Less than rounding is none.
+    fn in_common(&self, other: Option<&Linked<'_>>, area: Option<&Linked<'_>>, common: f64) -> Result<f64, OverlayError> {
+        let Some((at, cells)) = &self.double else { return Ok(0.0) };
+        let inside = area.map(|area| pieces::within(cells, area));
+        let cells = inside.as_ref().unwrap_or(cells);
+        let double = other.map_or_else(|| cells.area(), |other| tally::sweep(cells, other).common());
+        if double > MOST_DOUBLE * common {
+            return Err(self.refused(cells.place().unwrap_or(*at), double, common));
+        }
+        Ok(if double > AREA_ROUNDING * common { double } else { 0.0 })
+    }
 }
 
 /// A frame for both meshes.

@@ -18,7 +18,7 @@ use crate::model::{Bulking, Line, LineFeature, Note, Sheet, Terrain, Tin};
 use crate::plot::{Drawing, OnGround, Scene};
 use crate::read::Source;
 use crate::report::{CrossfallFigures, Report, ReportFormat, ResultFigures, RunRecord, Warning};
-use crate::setout::{self, Stake};
+use crate::setout::{self, Staked};
 use crate::slope::levels::LEVEL_SNAP;
 use crate::surface::{self, Watch as _};
 use crate::write::{Earthworks, LineFormat, MeshFormat, RasterFormat, Target};
@@ -107,10 +107,18 @@ pub fn build_at(desk: Desk<'_>, job: &BuildJob, observer: &dyn Observer) -> Resu
         report.line.crossfall = Some(CrossfallFigures { left: road.crossfall.left, right: road.crossfall.right });
     }
 
-    let stakes = match job.stakes.is_empty() {
-        true => Vec::new(),
-        false => staked(job, &line, &design, survey.as_ref())?,
+    let Staked { stakes, missing } = match job.stakes.is_empty() {
+        true => Staked::default(),
+        false => staked(job, &line, &design, &lines, survey.as_ref())?,
     };
+    if missing > 0 {
+        let message = format!(
+            "{missing} sides of stations have a slope that leaves the line otherwise than expected; stakes are missing there"
+        );
+        let note = Note::new("stakes-missing", message);
+        watch.note(&note);
+        report.warnings.push(Warning::plain(&note));
+    }
 
     // The ground itself is held on for drawings only.
     let drawn = survey.as_ref().map_or(0, |survey| room::of_ground(&survey.terrain));
@@ -212,16 +220,17 @@ pub(super) fn missed_levels(wishes: &[Wishes], levels: &[f64]) -> Option<Note> {
 }
 
 /// The slope stakes of a design.
-fn staked(job: &BuildJob, line: &Line, design: &Tin, survey: Option<&Survey>) -> Result<Vec<Stake>, Error> {
+fn staked(job: &BuildJob, line: &Line, design: &Tin, lines: &[LineFeature], survey: Option<&Survey>) -> Result<Staked, Error> {
     let slope = |sheet| job.wishes.iter().find(|wishes| wishes.sheet == sheet).map(|wishes| wishes.slope);
     let own = match survey {
         Some(_) => None,
         None => Some(Stations::new(axes(line, &design.frame), job.stations)?),
     };
-    let Some(stations) = survey.map(|survey| &survey.stations).or(own.as_ref()) else { return Ok(Vec::new()) };
+    let Some(stations) = survey.map(|survey| &survey.stations).or(own.as_ref()) else { return Ok(Staked::default()) };
     Ok(setout::stakes(&setout::Lie {
         line,
         design,
+        lines,
         ground: survey.map(|survey| &survey.terrain),
         stations,
         slopes: setout::Slopes { fill: slope(Sheet::Falling), cut: slope(Sheet::Rising) },

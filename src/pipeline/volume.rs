@@ -298,13 +298,14 @@ fn notes(found: &Between) -> Vec<Note> {
     let whole = areas.design_uncovered + found.common_area();
     if areas.design_uncovered > 0.0 {
         let (area, percent) = (areas.design_uncovered, 100.0 * areas.design_uncovered / whole);
+        // Where a plane is the design, what was asked for is the inside of rings.
+        let level = found.cells == 0;
+        let of = if level { "the area inside the rings" } else { "the design" };
         notes.push(Note::new(
             "design-uncovered",
-            format!(
-                "{area:.3} square units of the design ({percent:.3} %) do not lie over the existing surface; they have no volume"
-            ),
+            format!("{area:.3} square units of {of} ({percent:.3} %) do not lie over the existing surface; they have no volume"),
         ));
-        if areas.existing_uncovered == 0.0 {
+        if areas.existing_uncovered == 0.0 && !level {
             let message = "the existing surface lies wholly under the design, and is smaller: are the two swapped?";
             notes.push(Note::new("meshes-swapped", message));
         }

@@ -1,19 +1,20 @@
 //! Slope stakes: from the hinge of every station to where its slope meets the ground.
 
-use super::hinge::{Hinge, Ruling};
+use super::hinge::{Edges, Hinge, MeshLine, Ruling};
+use super::{STRIP_RATE, in_steps};
 use crate::ground::{Stations, place};
 use crate::mesh::drape::{Drape, Run};
-use crate::model::{Line, Part, Slope, Terrain, Tin};
+use crate::model::{Line, LineFeature, Part, Slope, Terrain, Tin};
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
-/// A slope begins within this distance of its hinge, in the length unit: rounding, and the simplified line.
+/// A slope begins within this distance of its hinge, in the length unit: slivers beside a vertex, and rounding.
 const START: f64 = 1e-4;
 
-/// A planar strip falls along its ruling by the slope, up to this share. Creases where rulings turn by less than 0.8° pass for
-/// none.
-const STRIP_RATE: f64 = 1e-4;
+/// Share of a ray that a run takes up if it goes on beyond its end, but for rounding.
+const WHOLE: f64 = 1.0 - 1e-9;
 
-/// The same for cones, which are drawn as wedges: half a wedge of 0.115 rad changes the fall by 1 − cos 0.0575.
+/// The same as [`STRIP_RATE`] for cones, which are drawn as wedges: half a wedge of 0.115 rad changes the fall by 1 − cos 0.0575.
 const CONE_RATE: f64 = 2e-3;
 
 /// Side of the axis, seen along it.
@@ -159,6 +160,8 @@ pub struct Lie<'a> {
     pub line: &'a Line,
     /// Platform and slopes; with ground cut off at it.
     pub design: &'a Tin,
+    /// The line work of the design: its hinges are where the slopes begin.
+    pub lines: &'a [LineFeature],
     /// The ground, in the frame of the design.
     pub ground: Option<&'a Terrain>,
     /// The axes with their stations, in that frame.
@@ -169,37 +172,52 @@ pub struct Lie<'a> {
     pub tolerance: f64,
 }
 
+/// The stakes of a design.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Staked {
+    /// By axis, station, side and way.
+    pub stakes: Vec<Stake>,
+    /// Sides of stations that have a slope but not both of its stakes.
+    pub missing: usize,
+}
+
 /// The slope stakes of every station and side: along the ruling, then perpendicular. Sides without a slope have none.
 ///
-/// Heights are those of the design given, so catch points lie on the daylight line of the mesh as written.
-pub fn stakes(lie: &Lie<'_>) -> Vec<Stake> {
+/// Hinges are those of the mesh, which is built from a simplified line; heights are its own, so catch points lie on the daylight
+/// line of the mesh as written. The same on any number of threads.
+pub fn stakes(lie: &Lie<'_>) -> Staked {
     let bounds = lie.design.plan_box();
+    let frame = &lie.design.frame;
+    let flattest = [lie.slopes.fill, lie.slopes.cut].into_iter().flatten().map(Slope::ratio).fold(f64::INFINITY, f64::min);
     let walk = Walk {
         lie,
         design: Drape::new(&lie.design.vertices, &lie.design.triangles, None),
         ground: lie.ground.map(|ground| Drape::new(&ground.vertices, &ground.triangles, Some(bounds))),
+        line: MeshLine::new(lie.lines, frame),
+        // A part of the tolerance is for the line, in height as the slopes see it.
+        slack: lie.tolerance / flattest + START,
         // Farther than the mesh is wide.
         far: 2.0 * bounds.size().length().max(1.0),
     };
-    let mut found = Vec::new();
+    let mut all = Staked::default();
     for (i, axis) in lie.stations.axes().iter().enumerate() {
         let Some(chain) = lie.line.chains.get(i) else { continue };
+        let edges = Edges::of(chain, frame);
         let breaks = lie.stations.breaks(i);
         // Both ends of a ring are one place.
         let breaks = if axis.closed { &breaks[..breaks.len().saturating_sub(1)] } else { breaks };
-        for &station in breaks {
-            let Some((point, along)) = place(axis, station) else { continue };
+        let at = |&station: &f64| {
+            let mut found = Staked::default();
+            let Some((point, along)) = place(axis, station) else { return found };
             for hand in [Hand::Left, Hand::Right] {
                 let outward = hand.outward(along);
-                let frame = &lie.design.frame;
-                let hinge = match chain.axis {
-                    Some(_) => Hinge::on_edge(chain, frame, hand, point, outward),
-                    None => Hinge::on_line(chain, frame, station),
-                };
-                let Some(hinge) = hinge else { continue };
-                for (way, reached) in walk.both(&hinge, hand, outward) {
+                let Some(given) = edges.hinge(axis, station, hand, (point, outward), walk.far) else { continue };
+                let hinge = walk.line.built(given, walk.slack);
+                let both = walk.both(&hinge, hand, outward);
+                found.missing += usize::from(both.as_ref().is_some_and(|ways| ways.len() < 2));
+                for (way, reached) in both.into_iter().flatten() {
                     let off = reached.catch.truncate() - point;
-                    found.push(Stake {
+                    found.stakes.push(Stake {
                         chain: axis.name.clone(),
                         station,
                         hand,
@@ -214,9 +232,14 @@ pub fn stakes(lie: &Lie<'_>) -> Vec<Stake> {
                     });
                 }
             }
+            found
+        };
+        for found in breaks.par_iter().map(at).collect::<Vec<_>>() {
+            all.stakes.extend(found.stakes);
+            all.missing += found.missing;
         }
     }
-    found
+    all
 }
 
 /// Where a walk down a slope ended, in the local frame.
@@ -231,19 +254,18 @@ struct Walk<'a> {
     lie: &'a Lie<'a>,
     design: Drape<'a>,
     ground: Option<Drape<'a>>,
+    line: MeshLine,
+    /// How far the line of the mesh may stand off the given one, in plan.
+    slack: f64,
     far: f64,
 }
 
 impl Walk<'_> {
-    /// From a hinge along its ruling, and perpendicular.
-    fn both(&self, hinge: &Hinge, hand: Hand, outward: DVec2) -> Vec<(Along, Reached)> {
+    /// From a hinge along its ruling, and perpendicular; `None` where there is no slope, unless the hinge is on the ground.
+    fn both(&self, hinge: &Hinge, hand: Hand, outward: DVec2) -> Option<Vec<(Along, Reached)>> {
         let Some((part, slope)) = self.part_at(hinge, outward) else {
-            return match self.on_ground(hinge.at) {
-                true => [Along::Ruling, Along::Perpendicular]
-                    .map(|way| (way, Reached { part: None, catch: hinge.at, ends: Ends::Ground }))
-                    .into(),
-                false => Vec::new(),
-            };
+            let here = |way| (way, Reached { part: None, catch: hinge.at, ends: Ends::Ground });
+            return self.on_ground(hinge.at).then(|| [Along::Ruling, Along::Perpendicular].map(here).into());
         };
         let ruling = match hinge.ruling(hand, part, slope) {
             Some(Ruling::Goes { direction, cone }) => {
@@ -256,7 +278,7 @@ impl Walk<'_> {
         };
         let across = self.down(hinge.at, outward, part, None);
         let ways = [(Along::Ruling, ruling), (Along::Perpendicular, across)];
-        ways.into_iter().filter_map(|(way, reached)| Some((way, reached?))).collect()
+        Some(ways.into_iter().filter_map(|(way, reached)| Some((way, reached?))).collect())
     }
 
     /// The part of the slope that leaves a hinge outwards.
@@ -274,7 +296,15 @@ impl Walk<'_> {
     /// The design from a hinge on in a direction, where it begins there.
     fn run(&self, hinge: DVec3, direction: DVec2) -> Option<Run> {
         let from = hinge.truncate();
-        self.design.along(from, from + direction * self.far).into_iter().next().filter(|run| run.points[0].x <= START)
+        in_steps(self.far, |reach| {
+            let first = self.design.along(from, from + direction * reach).into_iter().next();
+            let run = first.filter(|run| run.points.first().is_some_and(|p| p.x <= START));
+            // One that is as long as was looked may go on.
+            let last = run.as_ref().and_then(|run| run.points.last());
+            let goes_on = reach < self.far && last.is_some_and(|p| p.x >= WHOLE * reach);
+            (!goes_on).then_some(run)
+        })
+        .flatten()
     }
 
     /// From a hinge over one part until it ends; with `fall`, height per distance and how much it may vary, no farther than that

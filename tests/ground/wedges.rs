@@ -1,10 +1,11 @@
 //! Cases without cones: figures to the last digits.
 
 use crate::common::build::{open, rectangle};
+use crate::common::oracle::Polyline;
 use crate::figures::Figures;
 use crate::oracle::sample;
 use crate::planar::{self, Tilt};
-use crate::run::build;
+use crate::run::{Folder, build, options};
 use crate::site::Site;
 use crate::tin::{Ground, about};
 
@@ -216,4 +217,70 @@ fn basin_in_a_hole() {
     let folder = crate::run::Folder::of(&site).with("hole.geojson", text);
     let arguments = format!("hole.geojson --terrain ground.obj {}", crate::run::options(&site));
     crate::run::build_in(&folder, &arguments).figures().near(&basin(a, d, k), EXACT, "basin");
+}
+
+/// Vertices that the tolerance lets the engine leave out change no section: about a pad 5 high on level ground each has 5²/2k = 25 on the
+/// outside and nothing inside, and reaches 10 (at corners √2 times as much). The line that is built passes 3 mm beside the given one.
+#[test]
+fn sections_do_not_see_what_is_left_out() {
+    let ground = || Ground::grid([[-50.0, -50.0], [150.0, 100.0]], 3, 3, |_, _| 0.0);
+    for (y, tolerance) in [(39.997, 0.01), (40.003, 0.01), (40.0, 1e-4)] {
+        for reversed in [false, true] {
+            let mut points =
+                vec![[0.0, 0.0, 5.0], [40.0, 0.0, 5.0], [80.0, 0.0, 5.0], [80.0, 40.0, 5.0], [40.0, y, 5.0], [0.0, 40.0, 5.0]];
+            if reversed {
+                points.reverse();
+            }
+            let site = Site::new(vec![Polyline { points, closed: true }], 0.5, ground()).tolerance(tolerance);
+            let built = build(&site, "--stations 10");
+            let stations = built.report["stations"].as_array().unwrap();
+            assert!(stations.len() >= 24);
+            for (row, at) in stations.iter().flat_map(|row| ["from", "middle", "to"].map(|at| (row, at))) {
+                let [fill, left, right] = ["fill", "left", "right"].map(|key| row["section"][at][key].as_f64().unwrap());
+                let [from, to] = ["from", "to"].map(|key| row[key].as_f64().unwrap());
+                let station = if at == "middle" { 0.5 * (from + to) } else { row[at].as_f64().unwrap() };
+                let outside = if reversed { left } else { right };
+                assert_eq!(left + right, outside, "{row}");
+                let corner = [0.0, 80.0, 120.0, 200.0, 240.0].iter().any(|c| (station - c).abs() < 0.1);
+                // At corners it runs into the cone, which is a little flatter in chords.
+                assert!(corner || (fill - 25.0).abs() < 0.05 && (outside - 10.0).abs() < 0.02, "{at} {row}");
+            }
+        }
+    }
+}
+
+/// Inside an arc of radius 200, with a vertex every 0.25, 10 above level ground, slope 1 in 1.5: sections of 10·15/2 = 75 all along.
+#[test]
+fn sections_of_one_side_of_a_fine_arc() {
+    let at = |i: i32| (f64::from(i) * 0.25 / 200.0).sin_cos();
+    let points: Vec<[f64; 3]> = (0..=400).map(at).map(|(sin, cos)| [200.0 * sin, 200.0 - 200.0 * cos, 10.0]).collect();
+    let ground = Ground::grid([[-60.0, -60.0], [200.0, 200.0]], 3, 3, |_, _| 0.0);
+    let site = Site::new(vec![open(&points)], 1.0 / 1.5, ground).tolerance(0.01);
+    let folder = Folder::of(&site);
+    let outputs = "-o design.obj --report report.json --quiet";
+    folder
+        .run(&format!(
+            "build line.geojson --terrain ground.obj {} --side left --allow-open --stations 10 {outputs}",
+            options(&site)
+        ))
+        .done();
+    let report: serde_json::Value = serde_json::from_str(&folder.read("report.json")).unwrap();
+    let end_areas = report["volumes"]["end_area"]["fill"].as_f64().unwrap();
+    assert!((end_areas - 7500.0).abs() < 20.0, "{end_areas}");
+}
+
+/// A road with a bend of 26.6°: the section at 57, which crosses the crease behind it, is the same for every spacing.
+#[test]
+fn sections_do_not_depend_on_the_spacing() {
+    let bends = [[0.0, 0.0], [60.0, 0.0], [110.0, 25.0], [160.0, 25.0], [210.0, -10.0], [270.0, -10.0]];
+    let ground = Ground::grid([[-60.0, -90.0], [330.0, 100.0]], 3, 3, |_, _| 0.0);
+    let site = Site::new(vec![open(&bends.map(|[x, y]| [x, y, 10.0]))], 1.0 / 1.5, ground);
+    let of = |spacing: f64| {
+        let built = build(&site, &format!("--width 7 --stations {spacing}"));
+        let stations = built.report["stations"].as_array().unwrap();
+        let row = stations.iter().find(|row| row["from"] == 57.0).unwrap();
+        row["section"]["from"]["fill"].as_f64().unwrap()
+    };
+    let found = [57.0, 19.0, 3.0].map(of);
+    assert!(found.iter().all(|fill| (fill - found[0]).abs() < 1e-6) && (found[0] - 221.32).abs() < 0.01, "{found:?}");
 }

@@ -127,7 +127,8 @@ fn distance(p: DVec3, line: &[DVec3]) -> f64 {
 #[test]
 fn an_alignment_is_followed_within_its_chords() {
     let raw = lines(file(&alignment()), &[]).unwrap();
-    assert_eq!(codes(&raw.notes), [""; 0]);
+    assert_eq!(codes(&raw.notes), ["landxml-stations"]);
+    assert!(raw.notes[0].message.contains("begins at its station 1250.000"), "{}", raw.notes[0].message);
     assert_eq!((raw.lines.len(), raw.lines[0].name.as_deref()), (1, Some("axis")));
     let line: Vec<DVec3> = vertices(&raw.lines[0]).iter().map(|v| *v - START.extend(0.0)).collect();
     // The true curve, every centimetre.
@@ -178,7 +179,7 @@ fn stations_may_start_anywhere() {
     }
     // A profile that is shorter than the elements.
     let short = lines(file(&alignment().replace("1565 408.55<", "1555 408.05<")), &[]).unwrap();
-    assert_eq!(codes(&short.notes), ["landxml-profile-short"]);
+    assert_eq!(codes(&short.notes), ["landxml-profile-short", "landxml-stations"]);
     let length: f64 = vertices(&short.lines[0]).windows(2).map(|w| (w[1] - w[0]).truncate().length()).sum();
     assert!((length - 305.0).abs() < 0.02, "{length}");
     // One that lies elsewhere.
@@ -311,7 +312,7 @@ fn contradictions_are_told() {
         ("<Profile>", "<StaEquation staAhead=\"2000\" staInternal=\"1300\" staBack=\"1300\"/><Profile>", "landxml-equations"),
     ] {
         let raw = lines(text.replace(from, to), &[]).unwrap();
-        assert_eq!(codes(&raw.notes), [code], "{to}");
+        assert_eq!(codes(&raw.notes), [code, "landxml-stations"], "{to}");
     }
     let message = lines(text.replace("CoordGeom", "AlignPIs"), &[]).unwrap_err();
     assert!(message.contains("points of intersection only"), "{message}");

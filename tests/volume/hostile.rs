@@ -1,6 +1,7 @@
 //! Shapes that break simple overlays, and meshes that must be refused.
 
 use super::*;
+use slopegen::mesh::inside::inside;
 use slopegen::overlay::{OverlayError, Surface};
 
 fn square(lo: DVec2, side: f64, z: f64) -> Terrain {
@@ -112,14 +113,15 @@ fn a_mesh_on_itself_is_refused() {
     let refused = |found: Result<Between, OverlayError>, which: Surface, least: f64| match found {
         Err(OverlayError::Double { surface, area, of, at }) => {
             assert_eq!(surface, which);
-            assert!(area > least && (of - 104.0).abs() < 1e-9, "{area} {of}");
-            assert!(at.cmpge(DVec2::ZERO).all() && at.cmple(DVec2::splat(10.0)).all(), "{at}");
+            // The upper square lies double, and no more.
+            assert!(area > least && area <= 4.0 + 1e-9 && (of - 104.0).abs() < 1e-9, "{area} {of}");
+            assert!(at.cmpge(DVec2::new(2.0, 3.0)).all() && at.cmple(DVec2::new(4.0, 5.0)).all(), "{at}");
         }
         other => panic!("{other:?}"),
     };
-    refused(between(&twice, &ground, None), Surface::Design, 1.0);
-    refused(between(&ground, &twice, None), Surface::Existing, 1.0);
-    refused(slopegen::overlay::to_elevation(&twice, 0.5, None), Surface::Existing, 1.0);
+    refused(between(&twice, &ground, None), Surface::Design, 1.99);
+    refused(between(&ground, &twice, None), Surface::Existing, 1.99);
+    refused(slopegen::overlay::to_elevation(&twice, 0.5, None), Surface::Existing, 1.99);
     // Also where the other mesh lies wholly in the part that is double.
     let inner = square(DVec2::new(2.9, 3.9), 0.2, 4.0);
     assert!(matches!(between(&inner, &twice, None), Err(OverlayError::Double { .. })));
@@ -131,12 +133,59 @@ fn a_mesh_on_itself_is_refused() {
     assert!(matches!(between(&folded, &ground, None), Err(OverlayError::Double { .. })));
 }
 
+/// Of a mesh of 10⁸ square units 49 lie double: nothing of the whole, and all of a design that lies there. What counts is the part
+/// that is compared.
+#[test]
+fn what_is_compared_must_lie_single() {
+    let ground = |z| joined(&square(DVec2::ZERO, 1e4, z), &square(DVec2::splat(5e3), 7.0, z));
+    let refused = |found: Result<Between, OverlayError>, which: Surface, whole: f64| {
+        let Err(OverlayError::Double { surface, area, of, at }) = found else { panic!("{found:?}") };
+        assert_eq!(surface, which);
+        assert!((area - 49.0).abs() < 1e-6 && (of - whole).abs() < 1e-6, "{area} {of}");
+        assert!(at.cmpge(DVec2::splat(5e3)).all() && at.cmple(DVec2::splat(5007.0)).all(), "{at}");
+    };
+    let there = square(DVec2::splat(5e3), 7.0, 1.0);
+    refused(between(&there, &ground(0.0), None), Surface::Existing, 98.0);
+    refused(between(&ground(1.0), &square(DVec2::splat(5e3), 7.0, 0.0), None), Surface::Design, 98.0);
+    let beside = volume(&square(DVec2::splat(6e3), 7.0, 1.0), &ground(0.0));
+    near(beside.fill, 49.0, 1e-9);
+    assert_eq!(beside.double, [0.0; 2]);
+    // A design of which half has no ground below, the other half lies on the double part among others.
+    let half = square(DVec2::new(4900.0, 9800.0), 400.0, 1.0);
+    let moved = joined(&square(DVec2::ZERO, 1e4, 0.0), &square(DVec2::new(5e3, 9990.0), 7.0, 0.0));
+    let found = between(&half, &moved, None);
+    assert!(
+        matches!(found, Err(OverlayError::Double { surface: Surface::Existing, of, .. }) if (of - 80_049.0).abs() < 1e-6),
+        "{found:?}"
+    );
+    // Against a level, all and inside rings.
+    let all = slopegen::overlay::to_elevation(&ground(0.0), 1.0, None).unwrap();
+    assert!((all.double[1] - 49.0).abs() < 1e-6, "{:?}", all.double);
+    let rings = |lo: f64| {
+        inside(&[[(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)].map(|(x, y)| DVec2::new(lo + x, lo + y)).to_vec()])
+    };
+    refused(slopegen::overlay::to_elevation(&ground(0.0), 1.0, Some(&rings(4990.0).unwrap())), Surface::Existing, 449.0);
+    refused(between(&square(DVec2::ZERO, 1e4, 1.0), &ground(0.0), Some(&rings(4990.0).unwrap())), Surface::Existing, 449.0);
+    let beside = slopegen::overlay::to_elevation(&ground(0.0), 1.0, Some(&rings(2e3).unwrap())).unwrap();
+    assert_eq!((beside.fill, beside.double), (400.0, [0.0; 2]));
+}
+
+/// As many squares on each other as you like are refused at once, without a look at every pair.
+#[test]
+fn stacks_are_refused_at_once() {
+    let one = square(DVec2::ZERO, 1.0, 0.0);
+    let shift = |n: u32| one.triangles.iter().map(move |t| t.map(|v| v + 4 * n));
+    let vertices = (0..100_000).flat_map(|_| one.vertices.iter().copied()).collect();
+    let stack = terrain(vertices, (0..100_000).flat_map(shift).collect());
+    assert!(matches!(between(&stack, &one, None), Err(OverlayError::Double { surface: Surface::Design, .. })));
+}
+
 /// Rounded coordinates leave slivers along seams; they are told, not refused.
 #[test]
 fn a_seam_of_slivers_is_reported() {
     let seam = joined(&square(DVec2::ZERO, 10.0, 1.0), &square(DVec2::new(10.0 - 1e-6, 0.0), 10.0, 1.0));
     let found = volume(&seam, &square(DVec2::splat(-1.0), 40.0, 0.0));
-    assert!((found.double[0] - 2e-5).abs() < 1.1e-5 && found.double[1] == 0.0, "{:?}", found.double);
+    assert!((found.double[0] - 1e-5).abs() < 1e-10 && found.double[1] == 0.0, "{:?}", found.double);
     near(found.fill, 200.0, 1e-6);
 }
 

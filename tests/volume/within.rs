@@ -71,6 +71,19 @@ fn slivers_of_rounding_measure_nothing() {
     near(found.fill, 1424.0 / 4225.0, 1e-13);
 }
 
+/// Brought to a level inside a ring of 100, of which 60 lie beside the ground: these are told, as area that has no volume.
+#[test]
+fn a_level_beside_the_ground_is_told() {
+    let ground = random(5, 80, DVec2::ZERO, 10.0, |_| 1.0);
+    let area = inside(&[ring(&[(6.0, 0.0), (16.0, 0.0), (16.0, 10.0), (6.0, 10.0)])]).unwrap();
+    let found = to_elevation(&ground, 3.0, Some(&area)).unwrap();
+    near(found.fill, 2.0 * 40.0, 1e-13);
+    near(found.areas.design_uncovered, 60.0, 1e-12);
+    assert_eq!((found.areas.existing_uncovered, found.areas.within), (0.0, Some(100.0)));
+    let whole = to_elevation(&ground, 3.0, Some(&inside(&[ring(&[(1.0, 1.0), (9.0, 1.0), (5.0, 9.0)])]).unwrap())).unwrap();
+    assert_eq!(whole.areas.design_uncovered, 0.0);
+}
+
 #[test]
 fn what_lies_beside_inside_the_rings_is_told() {
     let design = random(1, 50, DVec2::ZERO, 10.0, |_| 1.0);

@@ -5,7 +5,11 @@ use glam::DVec2;
 use proptest::prelude::*;
 
 fn sections(axis: Axis, spacing: f64, pieces: &[(Part, Vec<Corner>)]) -> SectionFigures {
-    let stations = Stations::new(vec![axis], Some(spacing)).unwrap();
+    sections_off(0.0, axis, spacing, pieces)
+}
+
+fn sections_off(slack: f64, axis: Axis, spacing: f64, pieces: &[(Part, Vec<Corner>)]) -> SectionFigures {
+    let stations = Stations::new(vec![axis], Some(spacing)).unwrap().standing_off(slack);
     let mut sections = Sections::new(&stations);
     for (part, corners) in pieces {
         sections.add(&Piece { part: *part, axis: Some(0), corners });
@@ -114,8 +118,8 @@ fn what_is_not_connected_does_not_count() {
     assert_eq!((found.axes[0].len(), found.axes[1].len(), found.prismoidal), (2, 1, CutFill::default()));
 }
 
-/// A corner of 90° to the left at x = 20: on its inside two strips meet in a crease on the diagonal. At x = 5 the section ends
-/// there if it stands further from its like on the other leg than one interval, and goes on if it does not.
+/// A corner of 90° to the left at x = 20: on its inside two strips meet in a crease on the diagonal. Behind it feet are twice as far
+/// off as the section has come: it ends there, whatever the spacing.
 #[test]
 fn another_part_of_the_line_takes_over() {
     let axis = || open_axis(&[(0.0, 0.0), (20.0, 0.0), (20.0, 20.0)]);
@@ -128,9 +132,54 @@ fn another_part_of_the_line_takes_over() {
     // At the corner it runs along the crease itself, where both feet are the corner's.
     near(left(10.0, 1, 2), 800f64.sqrt());
     near(left(5.0, 1, 0), 15.0);
-    // At 15: feet at 15 and 25, 10 apart.
-    near(left(10.0, 1, 1), 20.0);
+    // At 15: feet at 15 and 25, 10 apart, where the section has come to 5.
+    near(left(10.0, 1, 1), 5.0);
     near(left(5.0, 3, 0), 5.0);
+    near(left(40.0, 0, 1), 800f64.sqrt());
+}
+
+/// A bend of 30° to the left at x = 20, strips w = 20 cos 15° wide. The section of x = 18 meets the crease at 2/tan 15°, where feet
+/// are at 18 and 22, and goes on to the end of the other strip, (w − 2 sin 30°)/cos 30° from the axis; for every spacing.
+#[test]
+fn lesser_bends_do_not_end_a_section() {
+    let (w, turned) = (20.0 * 15f64.to_radians().cos(), DVec2::from_angle(30f64.to_radians()));
+    let vertex = DVec2::new(20.0, 0.0);
+    let far = vertex + 20.0 * turned;
+    let crease = vertex + 20.0 * DVec2::from_angle(105f64.to_radians());
+    let first = [(0.0, 0.0), (20.0, 0.0), (crease.x, w), (0.0, w)].map(|(x, y)| corner(x, y, 1.0));
+    let second = [vertex, far, far + w * turned.perp(), crease]
+        .map(|at| Corner { station: 20.0 + (at - vertex).dot(turned), ..corner(at.x, at.y, 1.0) });
+    let pieces = [(Part::FillSlope, first.to_vec()), (Part::FillSlope, second.to_vec())];
+    for (spacing, interval, at) in [(1.0, 18, 0), (3.0, 6, 0), (9.0, 2, 0), (36.0, 0, 1)] {
+        let axis = open_axis(&[(0.0, 0.0), (20.0, 0.0), (far.x, far.y)]);
+        let section = sections(axis, spacing, &pieces).axes[0][interval].sections[at];
+        assert_eq!(section.station, 18.0);
+        near(section.left, (w - 1.0) / 30f64.to_radians().cos());
+        near(section.area.fill, section.left);
+    }
+}
+
+/// Slopes on one side of a line that was moved by 3 mm to either side are counted from where they begin, and on the other side there
+/// are none; what lies on both sides is parted at the axis.
+#[test]
+fn the_line_may_stand_off_its_axis() {
+    let strip = |from, to| [(0.0, from), (10.0, from), (10.0, to), (0.0, to)].map(|(x, y)| corner(x, y, 1.0)).to_vec();
+    type Strips = &'static [(f64, f64)];
+    let cases: [(Strips, f64, f64, f64); 6] = [
+        (&[(0.003, 1.0), (1.0, 3.0)], 3.0, 0.0, 2.997),
+        (&[(-0.003, 0.002), (0.002, 3.0)], 3.0, 0.0, 3.003),
+        (&[(-3.0, -0.003)], 0.0, 3.0, 2.997),
+        (&[(-3.0, 0.003), (0.003, 2.0)], 2.0, 3.0, 5.0),
+        (&[(-0.003, 0.004)], 0.004, 0.003, 0.007),
+        (&[(0.02, 3.0)], 0.0, 0.0, 0.0),
+    ];
+    for (strips, left, right, area) in cases {
+        let pieces: Vec<_> = strips.iter().map(|&(from, to)| (Part::FillSlope, strip(from, to))).collect();
+        let section = sections_off(0.01, straight_axis(10.0), 10.0, &pieces).axes[0][0].sections[1];
+        near(section.left, left);
+        near(section.right, right);
+        near(section.area.fill, area);
+    }
 }
 
 /// Outside a square ring of side 10, height 1 on a strip 2 wide with quarter rounds as squares: each section away from the

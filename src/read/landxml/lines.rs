@@ -96,11 +96,13 @@ impl<'a> Maker<'a> {
         let profile = self.profile(chosen, &runs)?;
         let mut lines = Vec::new();
         for run in &runs {
+            let start = feature.road.start * self.scale.plan;
+            let mut begin = start;
             let points = match &profile {
                 None => alignment::sample(run, alignment::Heights::Own, self.chord, &mut self.left),
                 Some((profile, at)) => {
-                    let start = feature.road.start * self.scale.plan;
                     let [from, to] = self.common(feature, run, profile, *at, notes)?;
+                    begin = from;
                     let heights = alignment::Heights::Profile { profile, start, from, to };
                     alignment::sample(run, heights, self.chord, &mut self.left)
                 }
@@ -114,6 +116,11 @@ impl<'a> Maker<'a> {
                     "give a greater `--tolerance`, or check the radii",
                 )
             })?;
+            if feature.kind == Kind::Alignment && begin != 0.0 {
+                let begin = begin / self.scale.plan;
+                let message = format!("{}: begins at its station {begin:.3}; stations are counted from 0 there", feature.text());
+                notes.push(Note::new("landxml-stations", message));
+            }
             let vertices: Vec<RawVertex> = points.into_iter().map(|(p, z)| RawVertex { x: p.x, y: p.y, z, row: None }).collect();
             lines.push(RawLine { vertices, ..raw.clone() });
         }
