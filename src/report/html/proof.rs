@@ -152,7 +152,9 @@ pub(super) fn method(report: &Report) -> Markup {
                     strong { "Volumes. " }
                     "Computed by " (v.method) ", "
                         (v.method_text) ". Simplification of the line and the chords of cones change each volume by "
-                        (plain(v.error_bound, 2)) " " (unit) "³ at most."
+                        (plain(v.error_bound, 2)) " " (unit) "³ at most"
+                    @if report.terrain.is_some() { ", for works that reach the same ground" }
+                    "."
                 }
                 li {
                     strong { "Sign rule. " }
