@@ -294,7 +294,7 @@ pub struct Certificate {
     /// Every edge has at most two triangles, one on each side, no vertex is unused, all triangles face up. Vertices at which the
     /// surface hangs together by a point alone are allowed.
     pub manifold: bool,
-    /// Pairs of edges of the boundary that cross in plan; where none do, loops of it with no or several layers of triangles
+    /// Places where edges of the boundary cross in plan; where none do, loops of it with no or several layers of triangles
     /// within. 0: no two triangles overlap.
     pub overlaps: usize,
     /// Every segment of the given line is a chain of mesh edges. On existing ground: before it cuts the sheets.

@@ -189,7 +189,7 @@ pub(crate) fn height_deviation(line: &Line, design: &Design, tin: &Tin, is_slope
     let step = slopes.len().div_ceil(HEIGHT_SAMPLES).max(1);
     let heights = Heights::new(line, design.slope, design.sheet);
     // Few triangles may be large ones: each is then looked at in more places, the middles of a regular division.
-    let division = (1..).take_while(|n| n * (n + 1) / 2 * slopes.max(1) <= HEIGHT_SAMPLES).last().unwrap_or(1);
+    let division = (1..).take_while(|n| n * (n + 1) / 2 * slopes.len().max(1) <= HEIGHT_SAMPLES).last().unwrap_or(1);
     let mut points = Vec::new();
     for &t in slopes.iter().step_by(step) {
         let corners = tin.corners(t);
