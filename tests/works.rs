@@ -240,8 +240,10 @@ fn everything_on_whole_numbers() {
         match build(&lines, 1.0, k, &terrain, &FINISHED) {
             Ok(built) => {
                 failures.extend(examine(&built, &terrain).err().map(|e| format!("{what}: {e}")));
-                let same = same_with_open_ends(&lines, [1.0, k], &terrain, &built);
-                failures.extend(same.err().map(|e| format!("{what}: {e}")));
+                if seed % 8 == 0 {
+                    let same = same_with_open_ends(&lines, [1.0, k], &terrain, &built);
+                    failures.extend(same.err().map(|e| format!("{what}: {e}")));
+                }
             }
             Err(GroundError::Open { .. }) if kind == 2 || half < 12.0 => {}
             Err(e) => failures.push(format!("{what}: {e}")),

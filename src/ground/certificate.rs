@@ -3,7 +3,6 @@
 use super::GroundError;
 use super::cell::TOUCH;
 use super::found::Found;
-use super::nodes::WELD;
 use super::patch::NONE;
 use crate::mesh::check::Soundness;
 use crate::model::{Design, Part, Sheet, Tin};
@@ -12,8 +11,9 @@ use crate::surface::{
 };
 use glam::DVec3;
 
-/// How far places are moved when design and ground become one mesh, in plan (length units): twice [`WELD`].
-const MOVED: f64 = 2.0 * WELD;
+/// How far places are moved when design and ground become one mesh, in plan (length units): twice
+/// `nodes::WELD`.
+const MOVED: f64 = 4e-8;
 
 /// Measures the design cut off at the ground. Pairing and the edges of the line are those of the sheets before they are cut: where
 /// neither side has works there is no edge left.
