@@ -8,7 +8,7 @@ use common::oracle::Polyline;
 use glam::DVec3;
 use slopegen::ground::{Ground, GroundError, Options, Site};
 use slopegen::kernel::frame::Frame;
-use slopegen::model::{Design, Extent, Sheet, Slope, Terrain, Tin};
+use slopegen::model::{CurveKind, Design, Extent, Sheet, Slope, Terrain, Tin};
 
 /// A grid of `n × n` cells over a square of half-width `half` about the origin, inner vertices shifted by up to `jitter` cells,
 /// heights from `z`.
@@ -57,7 +57,7 @@ fn build(lines: &[Polyline], cut: f64, fill: f64, terrain: &Terrain, options: &O
     site.build(&designs, options, &())
 }
 
-const FINISHED: Options = Options { allow_open: false, finished: true, stations: None, keep: false, exactly: false };
+const FINISHED: Options = Options { allow_open: false, finished: true, stations: None, keep: false };
 
 fn plan_area([a, b, c]: [DVec3; 3]) -> f64 {
     0.5 * (b - a).truncate().perp_dot((c - a).truncate())
@@ -88,7 +88,22 @@ fn examine(built: &Ground, terrain: &Terrain) -> Result<(), String> {
     if (gained - (total.fill - total.cut)).abs() > bound {
         return Err(format!("gained {gained}, fill {} cut {}", total.fill, total.cut));
     }
+    // All of the border is where design and ground meet: there are slopes on both sides, and the finished ground has no walls.
+    if let Some(line) = built.lines.iter().find(|line| line.kind == CurveKind::Boundary) {
+        return Err(format!("{} points of boundary, from {}", line.points.len(), line.points[0]));
+    }
     Ok(())
+}
+
+/// Allowing open ends changes nothing where there are none.
+fn same_with_open_ends(lines: &[Polyline], [cut, fill]: [f64; 2], terrain: &Terrain, built: &Ground) -> Result<(), String> {
+    let with = build(lines, cut, fill, terrain, &Options { allow_open: true, ..FINISHED }).map_err(|e| e.to_string())?;
+    let mesh = |tin: &Tin| (tin.vertices.clone(), tin.triangles.clone(), tin.parts.clone());
+    let parts = |ground: &Ground| {
+        (mesh(&ground.design), ground.finished.as_ref().map(mesh), ground.daylight, ground.tallied.total, ground.notes.clone())
+    };
+    let same = parts(&with) == parts(built) && with.complete;
+    if same { Ok(()) } else { Err("other results with open ends allowed".to_owned()) }
 }
 
 #[test]
@@ -174,7 +189,13 @@ fn rolling_ground() {
         };
         let what = format!("seed {seed}");
         match build(&lines, 1.0, 0.6, &terrain, &FINISHED) {
-            Ok(built) => failures.extend(examine(&built, &terrain).err().map(|e| format!("{what}: {e}"))),
+            Ok(built) => {
+                failures.extend(examine(&built, &terrain).err().map(|e| format!("{what}: {e}")));
+                if seed % 8 == 0 {
+                    let same = same_with_open_ends(&lines, [1.0, 0.6], &terrain, &built);
+                    failures.extend(same.err().map(|e| format!("{what}: {e}")));
+                }
+            }
             Err(e) => failures.push(format!("{what}: {e}")),
         }
     }
@@ -217,7 +238,13 @@ fn everything_on_whole_numbers() {
         let k = [1.0, 0.5][random.below(2)];
         let what = format!("seed {seed}");
         match build(&lines, 1.0, k, &terrain, &FINISHED) {
-            Ok(built) => failures.extend(examine(&built, &terrain).err().map(|e| format!("{what}: {e}"))),
+            Ok(built) => {
+                failures.extend(examine(&built, &terrain).err().map(|e| format!("{what}: {e}")));
+                if seed % 8 == 0 {
+                    let same = same_with_open_ends(&lines, [1.0, k], &terrain, &built);
+                    failures.extend(same.err().map(|e| format!("{what}: {e}")));
+                }
+            }
             Err(GroundError::Open { .. }) if kind == 2 || half < 12.0 => {}
             Err(e) => failures.push(format!("{what}: {e}")),
         }

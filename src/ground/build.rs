@@ -5,6 +5,7 @@ mod depth;
 use super::feeder::Feeder;
 use super::figures::{self, Ground};
 use super::finished::Left;
+use super::found::Found;
 use super::nodes::{Meeting, Nodes};
 use super::patch::Patch;
 use super::patchwork::Patchwork;
@@ -48,8 +49,6 @@ pub struct Options {
     pub stations: Option<f64>,
     /// Keep the ground and the pieces of the works, for drawings and setting out.
     pub keep: bool,
-    /// Refuse also slopes that end off the ground by less than the tolerance.
-    pub exactly: bool,
 }
 
 /// Everything but the finished ground, and what the works change of the ground if that is wanted.
@@ -96,26 +95,48 @@ impl<'a> Site<'a> {
         let whole = designs.iter().any(|design| design.only_inside(self.line));
         if !whole {
             let needed = self.as_deep_as_needed(designs, watch);
-            match self.attempt(&needed, whole, &Options { exactly: true, ..*options }, watch) {
-                // On ground that lies in the slopes, the coarse pass may have met it too early.
-                Err(GroundError::Open { .. }) if needed != designs => {}
-                built => return built,
+            let found = |(needed, given): (&Design, &Design)| match needed.extent {
+                Extent::Elevation(end) if needed != given => Some(end),
+                _ => None,
+            };
+            let found: Vec<f64> = needed.iter().zip(designs).filter_map(found).collect();
+            if !found.is_empty() {
+                match self.attempt(&needed, whole, &found, options, watch) {
+                    // On ground that lies in the slopes, the coarse pass may have met it too early.
+                    Err(GroundError::Open { .. }) => {}
+                    built => return built,
+                }
             }
         }
-        self.attempt(designs, whole, options, watch)
+        self.attempt(designs, whole, &[], options, watch)
     }
 
-    fn attempt(&self, designs: &[Design], whole: bool, options: &Options, watch: &dyn Watch) -> Result<Built, GroundError> {
+    /// `found`: elevations at which no slope may end, whatever the options.
+    fn attempt(
+        &self,
+        designs: &[Design],
+        whole: bool,
+        found: &[f64],
+        options: &Options,
+        watch: &dyn Watch,
+    ) -> Result<Built, GroundError> {
         let designs = self.in_common(designs);
         surface::in_spite_of_touching(Design::least_tolerance(&designs), GroundError::is_flaw, |joggle| {
             let designs: Vec<Design> = designs.iter().map(|design| Design { joggle, ..design.clone() }).collect();
-            let mut built = self.once(&designs, whole, options, watch)?;
+            let mut built = self.once(&designs, whole, found, options, watch)?;
             built.0.notes.extend(joggle.map(surface::joggle_note));
             Ok(built)
         })
     }
 
-    fn once(&self, designs: &[Design], whole: bool, options: &Options, watch: &dyn Watch) -> Result<Built, GroundError> {
+    fn once(
+        &self,
+        designs: &[Design],
+        whole: bool,
+        found: &[f64],
+        options: &Options,
+        watch: &dyn Watch,
+    ) -> Result<Built, GroundError> {
         let surfaces = self.surfaces(self.line, designs, watch)?;
         let go_on = |stage| {
             watch.stage(stage);
@@ -138,13 +159,13 @@ impl<'a> Site<'a> {
         if let Some(uncovered) = uncovered.as_ref().filter(|_| !options.allow_open) {
             return Err(uncovered.error());
         }
-        open_ends::check(&shape, &works, designs, options)?;
+        open_ends::check(&shape, &works, designs, found, options.allow_open)?;
         let bare = Bare::find(&shape, &works);
         if let Some(bare) = bare.as_ref().filter(|_| !options.allow_open) {
             return Err(bare.error());
         }
         if options.finished {
-            figures::check_walls(&shape, &works)?;
+            open_ends::check_walls(&shape, &works, designs)?;
         }
         go_on("daylight")?;
         let mut nodes = Nodes::new(&shape, &patch, &works);
@@ -165,7 +186,7 @@ impl<'a> Site<'a> {
                 }
             }
             go_on("finished ground")?;
-            figures::ground(&figures::Found {
+            figures::ground(&Found {
                 line: self.line,
                 designs,
                 terrain: &self.terrain,

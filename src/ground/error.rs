@@ -39,7 +39,7 @@ pub enum GroundError {
     },
     /// Slopes end at the edge of the ground, or at the end asked for, without having met the ground.
     #[error(
-        "the slopes do not meet the ground over {length:.3}, first near ({x:.3}, {y:.3})\n   = {at}: they are still up to \
+        "the slopes do not meet the ground over {length:.3}, furthest off near ({x:.3}, {y:.3})\n   = {at}: they are still up to \
          {height:.3} above or below it there\n   = help: {cure}, or accept open ends with `--allow-open`"
     )]
     Open {
@@ -58,7 +58,7 @@ pub enum GroundError {
     },
     /// There is no ground below a part of the platform.
     #[error(
-        "there is no ground under {area:.3} square units of the platform, first near ({x:.3}, {y:.3})\n   = the platform has {all:.3}\n   \
+        "there is no ground under {area:.3} square units of the platform, most of it near ({x:.3}, {y:.3})\n   = the platform has {all:.3}\n   \
          = help: use a ground without holes that reaches beyond the works, or accept open ends with `--allow-open`"
     )]
     Uncovered {
@@ -73,7 +73,7 @@ pub enum GroundError {
     },
     /// There is no ground below a part of the line.
     #[error(
-        "there is no ground under {length:.3} of the line, first near ({x:.3}, {y:.3})\n   = the line has {all:.3}\n   \
+        "there is no ground under {length:.3} of the line, most of it near ({x:.3}, {y:.3})\n   = the line has {all:.3}\n   \
          = help: use a ground without holes that reaches beyond the works, or accept open ends with `--allow-open`"
     )]
     LineUncovered {
@@ -88,7 +88,7 @@ pub enum GroundError {
     },
     /// The line is not on the ground where slopes stand on one side of it only.
     #[error(
-        "the finished ground would have upright walls {length:.3} long, first near ({x:.3}, {y:.3})\n   = the line lies up to \
+        "the finished ground would have upright walls {length:.3} long, the highest near ({x:.3}, {y:.3})\n   = the line lies up to \
          {height:.3} off the ground there, and no slope leads from it to the ground\n   = help: build slopes on both sides \
          (`--direction auto`, without `--side`), or leave out `--finished`"
     )]
@@ -101,6 +101,25 @@ pub enum GroundError {
         x: f64,
         /// Place.
         y: f64,
+    },
+    /// Slopes end off the ground where it goes on.
+    #[error(
+        "the finished ground would have upright walls {length:.3} long, the highest near ({x:.3}, {y:.3})\n   = {at}: the slopes are \
+         still up to {height:.3} above or below the ground there\n   = help: {cure}, or leave out `--finished`"
+    )]
+    WallsAtEnds {
+        /// Length of the walls.
+        length: f64,
+        /// Their greatest height.
+        height: f64,
+        /// Place.
+        x: f64,
+        /// Place.
+        y: f64,
+        /// Where the slopes end.
+        at: &'static str,
+        /// What helps.
+        cure: &'static str,
     },
     /// The meshes could not be put together along open ends.
     #[error(

@@ -1,12 +1,12 @@
 //! The works piece by piece to all who count them.
 
 use super::cell;
+use super::clip::sense;
 use super::patch::NONE;
 use super::shape::Shape;
 use super::tally::{Tally, split};
 use super::works::Sink;
 use super::{Corner, Piece, Pieces, SectionFigures, Sections, Stations};
-use crate::model::Part;
 
 /// What the feeder has gathered.
 pub(crate) struct Fed {
@@ -33,12 +33,12 @@ pub(super) struct Feeder<'a> {
     whole: bool,
 }
 
-/// A height without the sign its part cannot have: rounding.
-fn signed(part: Part, height: f64) -> f64 {
-    match part {
-        Part::FillSlope => height.max(0.0),
-        Part::CutSlope => height.min(0.0),
-        Part::Platform | Part::Ground => height,
+/// A height without the sign its part cannot have, see [`sense`]: rounding.
+fn signed(sense: Option<f64>, height: f64) -> f64 {
+    match sense {
+        Some(sense) if sense > 0.0 => height.max(0.0),
+        Some(_) => height.min(0.0),
+        None => height,
     }
 }
 
@@ -80,8 +80,9 @@ impl<'a> Feeder<'a> {
 impl Sink for Feeder<'_> {
     fn take(&mut self, a: u32, corners: &[cell::Corner]) {
         let shape = self.shape;
-        let (part, whole) = (shape.parts[a as usize], self.whole);
-        let height = |c: &cell::Corner| if whole { c.h } else { signed(part, c.h) };
+        let part = shape.parts[a as usize];
+        let sense = sense(part, self.whole);
+        let height = |c: &cell::Corner| signed(sense, c.h);
         self.corners.clear();
         let axis = if shape.foot_of[a as usize] != NONE {
             let foot = shape.feet[shape.foot_of[a as usize] as usize];

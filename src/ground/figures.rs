@@ -1,25 +1,22 @@
 //! From the works to what is written: meshes, line work, figures and the certificate.
 
-use super::cell::{Label, TOUCH, class};
+use super::cell::Label;
 use super::certificate::certificate;
-use super::feeder::Fed;
 use super::finished::Left;
-use super::nodes::{Nodes, WELD};
+use super::found::Found;
+use super::nodes::WELD;
 use super::open_ends;
-use super::patch::{NONE, Patch};
+use super::patch::NONE;
 use super::patchwork::Patchwork;
-use super::shape::Shape;
 use super::stations::Stations;
-use super::trimmed::Trimmed;
-use super::works::{Border, End, Works};
 use super::{Axis, GroundError, Pieces, SectionFigures, Tallied};
 use crate::kernel::sum::Sum;
 use crate::mesh::check::{self, HalfEdges};
 use crate::mesh::{polygon, volume};
-use crate::model::{CurveKind, Design, Line, LineFeature, Note, Part, Sheet, Terrain, Tin};
+use crate::model::{CurveKind, LineFeature, Note, Part, Sheet, Terrain, Tin};
 use crate::surface::curves::{self, chained};
 use crate::surface::error_bound::{Moves, layers};
-use crate::surface::{Areas, Certificate, Mark, Surface, flaw};
+use crate::surface::{Areas, Certificate, Mark, flaw};
 use glam::DVec3;
 use rustc_hash::FxHashSet;
 
@@ -37,7 +34,7 @@ pub struct Daylight {
     pub fill_length: f64,
     /// Its part along cut slopes.
     pub cut_length: f64,
-    /// Length in plan of ends that do not meet the ground.
+    /// Length in plan of ends further off the ground than the tolerance.
     pub open_length: f64,
 }
 
@@ -54,7 +51,7 @@ pub struct Ground {
     pub levels: Vec<f64>,
     /// The daylight line.
     pub daylight: Daylight,
-    /// Whether all slopes meet the ground, and all of the platform has ground below it.
+    /// Whether all slopes meet the ground, within the tolerance, and all of line and platform has ground below it.
     pub complete: bool,
     /// Cut and fill.
     pub tallied: Tallied,
@@ -80,27 +77,6 @@ pub struct Ground {
     pub ground_used: usize,
     /// Things worth knowing about the ground near the works.
     pub notes: Vec<Note>,
-}
-
-/// All that has been found.
-pub(crate) struct Found<'a> {
-    pub(crate) line: &'a Line,
-    pub(crate) designs: &'a [Design],
-    pub(crate) terrain: &'a Terrain,
-    pub(crate) surfaces: &'a [Surface],
-    pub(crate) shape: &'a Shape,
-    pub(crate) patch: &'a Patch,
-    pub(crate) works: &'a Works,
-    pub(crate) nodes: &'a Nodes,
-    pub(crate) trimmed: &'a Trimmed,
-    /// The design as it is part of the finished ground: no further than the ground.
-    pub(crate) within: &'a Trimmed,
-    pub(crate) left: Option<&'a Left>,
-    pub(crate) fed: &'a Fed,
-    /// Whether there is ground below all of the platform.
-    pub(crate) covered: bool,
-    pub(crate) stations: &'a Stations,
-    pub(crate) notes: &'a [Note],
 }
 
 /// Puts the results together and checks the meshes; the finished ground is left as what the works change.
@@ -191,7 +167,7 @@ fn error_bound(found: &Found, number: &Numbering, design: &Tin, edges: &HalfEdge
         foot != NONE && found.shape.feet[foot as usize].on_cone
     };
     let undirected = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
-    let met = met(found).into_iter().filter_map(|([a, b], _)| Some(undirected([number.get(a)?, number.get(b)?])));
+    let met = found.daylight().into_iter().filter_map(|([a, b], _)| Some(undirected([number.get(a)?, number.get(b)?])));
     let met: FxHashSet<[u32; 2]> = met.collect();
     let open: Vec<[u32; 2]> = edges.open().into_iter().filter(|edge| !met.contains(&undirected(*edge))).collect();
     let owners = check::owners(&open, design.vertices.len(), &design.triangles);
@@ -207,22 +183,8 @@ fn error_bound(found: &Found, number: &Numbering, design: &Tin, edges: &HalfEdge
     layers(design, on_cone, line, cone) + strips.collect::<Sum>().value() * (deepest + line + cone)
 }
 
-/// The pieces of boundary where design and ground meet, as numbers of nodes.
-fn met(found: &Found) -> Vec<([u32; 2], Part)> {
-    let ends = |border: &Border| {
-        if class(border.height) != 0 {
-            return None;
-        }
-        let (from, to) = (found.nodes.meeting(border.from)?, found.nodes.meeting(border.to)?);
-        (from != to).then_some(([from, to], found.shape.parts[border.a as usize]))
-    };
-    found.works.daylight.iter().chain(&found.works.borders).filter_map(ends).collect()
-}
-
 fn daylight(found: &Found) -> Daylight {
-    let met = met(found);
-    // No further off the ground than this, an end has met it.
-    let tolerance = found.designs.iter().map(|design| design.tolerance).fold(f64::INFINITY, f64::min);
+    let met = found.daylight();
     let length = |e: &[u32; 2]| {
         let [p, q] = e.map(|v| found.nodes.places[v as usize].truncate());
         p.distance(q)
@@ -234,14 +196,7 @@ fn daylight(found: &Found) -> Daylight {
         length: met.iter().map(|(e, _)| length(e)).collect::<Sum>().value(),
         fill_length: of(Part::FillSlope),
         cut_length: of(Part::CutSlope),
-        open_length: found
-            .works
-            .open
-            .iter()
-            .filter(|o| o.height > tolerance)
-            .map(|o| o.points[0].truncate().distance(o.points[1].truncate()))
-            .collect::<Sum>()
-            .value(),
+        open_length: open_ends::length(open_ends::beyond_tolerance(found.works, found.designs)),
     }
 }
 
@@ -259,7 +214,7 @@ fn lines(found: &Found, number: &Numbering, design: &Tin, edges: &HalfEdges) -> 
     }
     marks.sort_unstable();
     marks.dedup();
-    let met = met(found);
+    let met = found.daylight();
     let numbered = |e: &[u32; 2]| Some([number.get(e[0])?, number.get(e[1])?]);
     let on_ground: FxHashSet<[u32; 2]> = met.iter().filter_map(|(e, _)| numbered(e)).collect();
     let open: Vec<[u32; 2]> = edges.open().into_iter().filter(|e| !on_ground.contains(e)).collect();
@@ -283,32 +238,6 @@ fn push(features: &mut Vec<LineFeature>, found: &Found, segments: &[[u32; 2]], k
     for path in chained(segments) {
         let points = path.into_iter().map(|v| found.shape.frame.to_world(found.nodes.places[v as usize])).collect();
         features.push(LineFeature { kind, points, elevation: None, chain: None, part });
-    }
-}
-
-/// Refuses upright walls: boundary of the works along the line where the line is not on the ground.
-///
-/// # Errors
-/// [`GroundError::Walls`], [`GroundError::Open`].
-pub(crate) fn check_walls(shape: &Shape, works: &Works) -> Result<(), GroundError> {
-    let (mut length, mut height, mut place) = (Sum::default(), 0.0_f64, None);
-    for border in works.borders.iter().filter(|border| class(border.height) != 0) {
-        let [p, q] = border.points;
-        length.add(p.truncate().distance(q.truncate()));
-        height = height.max(border.height);
-        place.get_or_insert(0.5 * (p + q));
-    }
-    for open in works.open.iter().filter(|open| open.end == End::Slope) {
-        length.add(open.points[0].truncate().distance(open.points[1].truncate()));
-        height = height.max(open.height);
-        place.get_or_insert(open.points[0]);
-    }
-    match place {
-        Some(p) if height > TOUCH => {
-            let at: DVec3 = shape.frame.to_world(p);
-            Err(GroundError::Walls { length: length.value(), height, x: at.x, y: at.y })
-        }
-        _ => Ok(()),
     }
 }
 

@@ -10,6 +10,7 @@ mod error;
 mod feeder;
 mod figures;
 mod finished;
+mod found;
 pub mod haul;
 mod nodes;
 mod open_ends;

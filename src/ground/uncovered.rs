@@ -19,7 +19,7 @@ pub(super) struct Uncovered {
     area: f64,
     /// Plan area of all platforms.
     all: f64,
-    /// A place of it in the world.
+    /// The middle of the triangle with most of it, in the world.
     pub(super) at: DVec2,
 }
 
@@ -45,7 +45,7 @@ impl Uncovered {
     pub(super) fn note(&self) -> Note {
         let Self { area, all, at } = self;
         let message = format!(
-            "there is no ground under {area:.3} of {all:.3} square units of the platform, first near ({:.3}, {:.3})",
+            "there is no ground under {area:.3} of {all:.3} square units of the platform, most of it near ({:.3}, {:.3})",
             at.x, at.y
         );
         Note::new("platform-uncovered", message)
@@ -58,7 +58,7 @@ pub(super) struct Bare {
     length: f64,
     /// Length in plan of all of the line.
     all: f64,
-    /// A place of it in the world.
+    /// The middle of the edge with most of it, in the world.
     at: DVec2,
 }
 
@@ -84,7 +84,7 @@ impl Bare {
     pub(super) fn note(&self) -> Note {
         let Self { length, all, at } = self;
         let message =
-            format!("there is no ground under {length:.3} of {all:.3} of the line, first near ({:.3}, {:.3})", at.x, at.y);
+            format!("there is no ground under {length:.3} of {all:.3} of the line, most of it near ({:.3}, {:.3})", at.x, at.y);
         Note::new("line-uncovered", message)
     }
 }

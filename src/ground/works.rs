@@ -70,7 +70,7 @@ pub(crate) struct Works {
     pub(crate) points: FxHashMap<Label, DVec3>,
     /// Vertices of the design that lie on a vertex of the ground.
     pub(crate) twins: Vec<[u32; 2]>,
-    /// Such points on edges of the design and of the ground, apart from their ends.
+    /// Such points on edges of the design and of the ground.
     pub(crate) on_design: FxHashMap<[u32; 2], Vec<Label>>,
     pub(crate) on_ground: FxHashMap<[u32; 2], Vec<Label>>,
     /// Triangles of the design that are in the works but not with all their area, or with points on their sides.
@@ -154,6 +154,10 @@ impl<'a, S: Sink> Flood<'a, S> {
         works.borders.extend(works.loose.values().copied());
         works.borders.sort_unstable_by_key(|border| (border.from, border.to));
         works.loose = FxHashMap::default();
+        for labels in works.on_design.values_mut().chain(works.on_ground.values_mut()) {
+            labels.sort_unstable();
+            labels.dedup();
+        }
         works
     }
 
@@ -403,10 +407,7 @@ impl<'a, S: Sink> Flood<'a, S> {
     }
 }
 
-/// Takes down a point on an edge.
+/// Takes down a point on an edge. The same point may be there several times, once for each cell around it.
 pub(crate) fn remember(edges: &mut FxHashMap<[u32; 2], Vec<Label>>, edge: [u32; 2], label: Label) {
-    let list = edges.entry(edge).or_default();
-    if !list.contains(&label) {
-        list.push(label);
-    }
+    edges.entry(edge).or_default().push(label);
 }

@@ -5,8 +5,13 @@ use crate::kernel::orientation::{Turn, turn};
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
-/// Polygons with more corners are triangulated with spade.
+/// Polygons with more corners are triangulated with spade, which is slow where most of them lie on one line. So stretches of more
+/// than this many edges that are straight are triangulated as one, and the triangle there is fanned out.
 const MOST_CORNERS: usize = 24;
+
+/// Vertices no further (length units) from the edge between two others than this, which is more than rounding of places far from the
+/// origin, may be taken to lie on it.
+const STRAIGHT: f64 = 1e-8;
 
 /// Triangulates the region on the left of directed closed `edges` between vertices of `points`; edges that run against each
 /// other cancel. `keep` tells corners from mere places on a straight edge, which are left out.
@@ -36,11 +41,90 @@ pub fn fill(points: &[DVec3], edges: &[[u32; 2]], keep: impl Fn(u32) -> bool) ->
     }
     let mut outline: Vec<[u32; 2]> =
         loops.iter().flat_map(|ring| (0..ring.len()).map(move |i| [ring[i], ring[(i + 1) % ring.len()]])).collect();
+    let given = outline.len();
     cancel(&mut outline);
     if outline.is_empty() {
         return Ok(Vec::new());
     }
+    if outline.len() == given && given > MOST_CORNERS {
+        let plan = |v: u32| points[v as usize].truncate();
+        let stretches: Vec<Vec<u32>> = loops.iter().flat_map(|ring| stretches(points, ring)).collect();
+        // What is straight but for rounding may not be good for a fan, or have another part of the outline that close.
+        if stretches.len() < given
+            && let Ok(triangles) = region::fill(points, &stretches)
+            && triangles.iter().all(|&[a, b, c]| turn(plan(a), plan(b), plan(c)) == Turn::Left)
+        {
+            return Ok(triangles);
+        }
+    }
     region::fill(points, &outline.into_iter().map(|e| e.to_vec()).collect::<Vec<_>>())
+}
+
+/// A ring as edges, and straight stretches of more than [`MOST_CORNERS`] of them as one, with all its vertices from end to end.
+fn stretches(points: &[DVec3], ring: &[u32]) -> Vec<Vec<u32>> {
+    let plan = |v: u32| points[v as usize].truncate();
+    let before = |p: DVec2, q: DVec2| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y));
+    // Always a corner.
+    let first = (0..ring.len()).min_by(|&i, &j| before(plan(ring[i]), plan(ring[j]))).unwrap_or(0);
+    let mut all = Vec::new();
+    let mut stretch: Vec<u32> = Vec::new();
+    let mut aim = Aim::new(DVec2::ZERO, DVec2::ZERO);
+    for n in 0..=ring.len() {
+        let v = ring[(first + n) % ring.len()];
+        match stretch[..] {
+            [] => {}
+            [start] => aim = Aim::new(plan(start), plan(v)),
+            _ if aim.take(plan(v)) => {}
+            [.., last] => {
+                end(&mut stretch, &mut all);
+                stretch.push(last);
+                aim = Aim::new(plan(last), plan(v));
+            }
+        }
+        stretch.push(v);
+    }
+    end(&mut stretch, &mut all);
+    all
+}
+
+/// Takes down a stretch: as one if that is worth while, else edge by edge.
+fn end(stretch: &mut Vec<u32>, all: &mut Vec<Vec<u32>>) {
+    let stretch = std::mem::take(stretch);
+    if stretch.len() > MOST_CORNERS + 1 {
+        all.push(stretch);
+    } else {
+        all.extend(stretch.windows(2).map(<[u32]>::to_vec));
+    }
+}
+
+/// Straight lines from one point that pass all points taken so far, in order and no further off than [`STRAIGHT`].
+struct Aim {
+    from: DVec2,
+    along: DVec2,
+    /// How far the last point is away.
+    reached: f64,
+    /// Sidewards per length: from, to.
+    range: [f64; 2],
+}
+
+impl Aim {
+    fn new(from: DVec2, to: DVec2) -> Self {
+        let reached = from.distance(to);
+        let off = STRAIGHT / reached;
+        Self { from, along: (to - from) / reached, reached, range: [-off, off] }
+    }
+
+    /// Takes a point if one of the lines ends in it.
+    fn take(&mut self, p: DVec2) -> bool {
+        let (away, aside) = (self.along.dot(p - self.from), self.along.perp_dot(p - self.from));
+        let [low, high] = self.range;
+        let fits = away > self.reached && aside >= low * away && aside <= high * away;
+        if fits {
+            self.reached = away;
+            self.range = [low.max((aside - STRAIGHT) / away), high.min((aside + STRAIGHT) / away)];
+        }
+        fits
+    }
 }
 
 /// Drops edges without length, and pairs that run against each other.
@@ -177,6 +261,35 @@ mod tests {
         let triangles = fill(&p, &edges, |v| v != 7).unwrap();
         assert_eq!((triangles.len(), area(&p, &triangles)), (5, 6.0));
         assert!(triangles.as_flattened().contains(&1) && !triangles.as_flattened().contains(&7));
+    }
+
+    /// Thousands of vertices on two sides of a rectangle, straight but for rounding: each of them an edge of one triangle.
+    #[test]
+    fn many_vertices_on_a_straight_line() {
+        let n = 20_000_u32;
+        let at = |x: f64, y: f64| {
+            let (sin, cos) = 0.3_f64.sin_cos();
+            DVec3::new(640_000.0 + cos * x - sin * y, 5_200_000.0 + sin * x + cos * y, 0.0)
+        };
+        let mut p: Vec<DVec3> = (0..=n).map(|i| at(f64::from(i), 0.0)).collect();
+        p.extend((0..=n).rev().map(|i| at(f64::from(i), 2.0)));
+        let count = p.len() as u32;
+        let edges: Vec<[u32; 2]> = (0..count).map(|i| [i, (i + 1) % count]).collect();
+        let began = std::time::Instant::now();
+        let triangles = fill(&p, &edges, |_| true).unwrap();
+        assert_eq!(triangles.len() as u32, count - 2);
+        assert!((area(&p, &triangles) - 2.0 * f64::from(n)).abs() < 1e-3 * f64::from(n));
+        // A hundredth of a second, or many seconds where each vertex looks at all others.
+        assert!(began.elapsed().as_secs_f64() < 5.0, "{:?}", began.elapsed());
+        // Bent outwards and inwards in every vertex, it is no straight line; a wave of 1 in 100 is none either.
+        for bend in [1e-6, -1e-6] {
+            let bow = |i: u32| at(f64::from(i), bend * f64::from(i * (40 - i)));
+            let mut p: Vec<DVec3> = (0..=40).map(bow).collect();
+            p.extend([at(40.0, 2.0), at(0.0, 2.0)]);
+            let edges: Vec<[u32; 2]> = (0..43).map(|i| [i, (i + 1) % 43]).collect();
+            assert_eq!(stretches(&p, &(0..43).collect::<Vec<_>>()).len(), 43);
+            assert_eq!(fill(&p, &edges, |_| true).unwrap().len(), 41);
+        }
     }
 
     /// A square with a square hole, an edge there and back between them, and a loop that touches itself in a corner.

@@ -47,13 +47,8 @@ pub(super) fn build(
     }
     let mut site = Site::new(line, terrain, &ground_source.label);
     let designs = designs(&job.wishes, &mut site, line, &source.label, watch)?;
-    let options = Options {
-        allow_open: input.allow_open,
-        finished: job.wants_finished(),
-        stations: job.stations,
-        keep: job.draws(),
-        exactly: false,
-    };
+    let options =
+        Options { allow_open: input.allow_open, finished: job.wants_finished(), stations: job.stations, keep: job.draws() };
     let (terrain, area) = (terrain_figures(site.terrain()), site.area());
     room::for_works(job, site.terrain(), &ground_source.label, &watch.memory())?;
     let built = site.build(&designs, &options, watch).map_err(|cause| Error::Ground {

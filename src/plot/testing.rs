@@ -91,7 +91,7 @@ fn formed(name: &str, points: &[[f64; 3]], closed: bool, road: Option<Formation>
     };
     let (down, up) = (site.end(slope, Sheet::Falling, 0.01), site.end(slope, Sheet::Rising, 0.01));
     let designs = [design(Sheet::Falling, down), design(Sheet::Rising, up)];
-    let options = Options { allow_open: false, finished: false, stations: Some(20.0), keep: true, exactly: false };
+    let options = Options { allow_open: false, finished: false, stations: Some(20.0), keep: true };
     let built = site.build(&designs, &options, &()).unwrap();
     Kit { line, built, bulking: None, title: name.into() }
 }

@@ -274,7 +274,8 @@ pub struct SurfaceFigures {
 /// What was measured on the mesh written.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Certificate {
-    /// Every ridge arc of a facet with a partner is an arc of the partner with that facet.
+    /// Every ridge arc of a facet with a partner is an arc of the partner with that facet. On existing ground: before it cuts the
+    /// sheets.
     pub paired: bool,
     /// Greatest deviation of a slope triangle from the slope asked for, in degrees.
     #[schemars(range(min = 0))]
@@ -290,11 +291,13 @@ pub struct Certificate {
     /// Greatest deviation of a sampled height from the closed form.
     #[schemars(range(min = 0))]
     pub height_max_deviation: f64,
-    /// No edge has more than two triangles, no vertex pinches, all triangles face up.
+    /// Every edge has at most two triangles, one on each side, no vertex is unused, all triangles face up. Vertices at which the
+    /// surface hangs together by a point alone are allowed.
     pub manifold: bool,
-    /// Pairs of triangles that overlap in plan.
+    /// Places where edges of the boundary cross in plan; where none do, loops of it with no or several layers of triangles
+    /// within. 0: no two triangles overlap.
     pub overlaps: usize,
-    /// Every segment of the given line is a chain of mesh edges.
+    /// Every segment of the given line is a chain of mesh edges. On existing ground: before it cuts the sheets.
     pub input_edges_kept: bool,
 }
 

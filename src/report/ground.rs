@@ -30,7 +30,7 @@ pub struct Daylight {
     /// Length of the line.
     #[schemars(range(min = 0))]
     pub length: f64,
-    /// Length along which the works end without meeting the ground.
+    /// Length along which the works end further off the ground than the tolerance.
     #[schemars(range(min = 0))]
     pub open_length: f64,
     /// The part of `length` above cut slopes.

@@ -6,7 +6,7 @@ mod ground;
 pub use between::{write_between, write_between_markdown};
 
 use super::page::{Column, Group, Page, Row};
-use super::{BuriedStretch, Certificate, ExtentKind, LineFigures, Report, SurfaceFigures, Volumes};
+use super::{BuriedStretch, ExtentKind, LineFigures, Report, SurfaceFigures, Volumes};
 use crate::model::Slope;
 use crate::model::message::printable;
 use crate::write::EncodeError;
@@ -69,7 +69,7 @@ fn page(report: &Report) -> Page {
         page.length("  interval", interval);
     }
     surface(&mut page, &report.surface);
-    certificate(&mut page, &report.certificate);
+    certificate(&mut page, report);
     page.small("  tolerance", &short(report.design.tolerance));
     ground::terrain(&mut page, report);
     if let Some(volumes) = &report.volumes {
@@ -145,12 +145,17 @@ fn surface(page: &mut Page, surface: &SurfaceFigures) {
     page.area("platform", surface.platform_area);
 }
 
-fn certificate(page: &mut Page, c: &Certificate) {
+fn certificate(page: &mut Page, report: &Report) {
+    let c = &report.certificate;
     let yes = |yes: bool| if yes { "yes" } else { "NO" };
+    let of_sheets = |of: bool| match report.terrain {
+        Some(_) => format!("{}, before the ground cut it", yes(of)),
+        None => yes(of).to_owned(),
+    };
     page.section("Certificate (measured on this mesh)");
-    page.words("facets pair", yes(c.paired));
+    page.words("facets pair", &of_sheets(c.paired));
     page.words("manifold", yes(c.manifold));
-    page.words("line kept as edges", yes(c.input_edges_kept));
+    page.words("line kept as edges", &of_sheets(c.input_edges_kept));
     page.count("overlaps", c.overlaps);
     page.figure("slope deviation", &angle(c.slope_max_deviation_deg), "°");
     page.figure("  planar strips", &angle(c.strip_max_deviation_deg), "°");

@@ -70,7 +70,7 @@ pub(crate) fn measure(
 ) -> Result<Certificate, SurfaceError> {
     let (soundness, height_max_deviation) = rayon::join(
         || check::check_with(&body.tin.vertices, &body.tin.triangles, edges, open),
-        || height_deviation(line, design, body),
+        || height_deviation(line, design, &body.tin, |t| body.tin.parts[t] != Part::Platform),
     );
     let certificate = Certificate {
         paired: true,
@@ -81,14 +81,13 @@ pub(crate) fn measure(
         ..Certificate::default()
     }
     .with(deviations(design, body));
-    let scale = body.tin.vertices.iter().fold(1.0_f64, |m, p| m.max(p.abs().max_element()));
     let flaw = if let Some(flaw) = flaw(&soundness, &body.tin) {
         Some(flaw)
     } else if certificate.strip_max_deviation_deg > STRIP_BOUND {
         Some(format!("a strip triangle is {:.4}° off the slope", certificate.strip_max_deviation_deg))
     } else if certificate.sector_max_deviation_deg > CONE_BOUND {
         Some(format!("a cone triangle is {:.4}° off the slope", certificate.sector_max_deviation_deg))
-    } else if certificate.height_max_deviation > design.tolerance + ROUNDING * scale {
+    } else if certificate.height_max_deviation > design.tolerance + height_rounding(&body.tin) {
         Some(format!("a height is {:.6} off the sheet, tolerance {}", certificate.height_max_deviation, design.tolerance))
     } else if !certificate.input_edges_kept {
         Some("a segment of the line is not an edge of the mesh".into())
@@ -184,23 +183,28 @@ fn width(corners: [DVec3; 3]) -> f64 {
     (b - a).perp_dot(c - a).abs() / longest
 }
 
-/// Compares sampled slope triangles with the sheet of the given line.
-fn height_deviation(line: &Line, design: &Design, body: &Body) -> f64 {
-    let slopes = body.tin.parts.iter().filter(|&&p| p != Part::Platform).count();
-    let step = slopes.div_ceil(HEIGHT_SAMPLES).max(1);
+/// Largest difference in height between the sheet of the given line and triangles of its slopes, sampled.
+pub(crate) fn height_deviation(line: &Line, design: &Design, tin: &Tin, is_slope: impl Fn(usize) -> bool) -> f64 {
+    let slopes: Vec<usize> = (0..tin.triangles.len()).filter(|&t| is_slope(t)).collect();
+    let step = slopes.len().div_ceil(HEIGHT_SAMPLES).max(1);
     let heights = Heights::new(line, design.slope, design.sheet);
     // Few triangles may be large ones: each is then looked at in more places, the middles of a regular division.
-    let division = (1..).take_while(|n| n * (n + 1) / 2 * slopes.max(1) <= HEIGHT_SAMPLES).last().unwrap_or(1);
+    let division = (1..).take_while(|n| n * (n + 1) / 2 * slopes.len().max(1) <= HEIGHT_SAMPLES).last().unwrap_or(1);
     let mut points = Vec::new();
-    for t in (0..slopes).step_by(step) {
-        let corners = body.tin.corners(t);
+    for &t in slopes.iter().step_by(step) {
+        let corners = tin.corners(t);
         points.extend(corners);
         let [a, b, c] = corners;
         let places = (0..division).flat_map(|i| (0..division - i).map(move |j| [i, j].map(|i| i as f64 + 1.0 / 3.0)));
         points.extend(places.map(|[u, v]| a + ((b - a) * u + (c - a) * v) / division as f64));
     }
-    let places: Vec<DVec2> = points.iter().map(|&p| body.tin.frame.to_world(p).truncate()).collect();
+    let places: Vec<DVec2> = points.iter().map(|&p| tin.frame.to_world(p).truncate()).collect();
     heights.many(&places).iter().zip(&points).map(|(h, p)| (h - p.z).abs()).fold(0.0, f64::max)
+}
+
+/// Rounding allowed on top of the tolerance.
+pub(crate) fn height_rounding(tin: &Tin) -> f64 {
+    ROUNDING * tin.vertices.iter().fold(1.0_f64, |m, p| m.max(p.abs().max_element()))
 }
 
 /// Whether consecutive points of every edge with a wanted side are joined by mesh edges, where the edge shows.

@@ -18,7 +18,7 @@ mod touching;
 
 pub use buried::Buried;
 pub use certificate::Certificate;
-pub(crate) use certificate::{CONE_BOUND, Deviations, MEASURABLE_HEIGHT, STRIP_BOUND, flaw};
+pub(crate) use certificate::{CONE_BOUND, Deviations, MEASURABLE_HEIGHT, STRIP_BOUND, flaw, height_deviation, height_rounding};
 pub use curves::Mark;
 pub use error::SurfaceError;
 pub use feet::Foot;

@@ -5,7 +5,7 @@ use crate::common::build::rectangle;
 use crate::figures::Figures;
 use crate::oracle::sample;
 use crate::planar::{self, Tilt, above};
-use crate::run::{Built, build};
+use crate::run::{Built, Folder, build, build_in};
 use crate::site::Site;
 use crate::tin::{Ground, about};
 
@@ -157,4 +157,70 @@ fn two_pads() {
     assert_eq!(built.number("daylight.loops"), 1.0);
     built.figures().roughly(&sample(&near, [[-32.0, -20.0], [32.0, 20.0]], 700), 1e-3, "brute force");
     assert!(built.figures().fill < 2.0 * one.fill - 10.0);
+}
+
+/// The pad of 20 by 20 with its corner at the origin, 40 above a basin in a dike; the slope 1:2 comes to the crest, 60 from the pad, in
+/// a height of 10. The crest is 15 high but for a notch of half-width `half` on the bisector of a corner, which is `drop` below the
+/// slope. Beyond the dike the ground is 20 below the basin.
+fn dike(drop: f64, half: f64) -> Site {
+    const CREST: f64 = 60.0;
+    let notch = (half / CREST).to_degrees();
+    let angles = |quarter: usize| {
+        let first = 90.0 * quarter as f64 - 90.0;
+        let mut angles: Vec<f64> = (0..=24).map(|i| first + 3.75 * f64::from(i)).collect();
+        if quarter == 1 {
+            angles.retain(|a| (a - 45.0).abs() > 3.0 * notch);
+            angles.extend([-2.0, -1.0, 0.0, 1.0, 2.0].map(|n| 45.0 + n * notch));
+            angles.sort_by(f64::total_cmp);
+        }
+        angles
+    };
+    let mut ground = Ground { vertices: vec![[10.0, 10.0, 0.0]], triangles: Vec::new() };
+    let mut rows: Vec<Vec<usize>> = Vec::new();
+    for distance in [0.5, 20.0, CREST - 1.0, CREST, CREST + 1.0, CREST + 60.0, CREST + 120.0] {
+        let mut row = Vec::new();
+        for (quarter, [x, y]) in [[20.0, 0.0], [20.0, 20.0], [0.0, 20.0], [0.0, 0.0]].into_iter().enumerate() {
+            for angle in angles(quarter) {
+                let in_notch = quarter == 1 && (angle - 45.0).abs() < 1.1 * notch;
+                let z = match distance {
+                    CREST if in_notch => 40.0 - 0.5 * CREST - drop,
+                    CREST => 15.0,
+                    _ if distance < CREST => 0.0,
+                    _ => -20.0,
+                };
+                let (sin, cos) = angle.to_radians().sin_cos();
+                row.push(ground.vertices.len());
+                ground.vertices.push([x + distance * cos, y + distance * sin, z]);
+            }
+        }
+        rows.push(row);
+    }
+    let next = |row: &[usize], i: usize| row[(i + 1) % row.len()];
+    ground.triangles.extend((0..rows[0].len()).map(|i| [0, rows[0][i], next(&rows[0], i)]));
+    for w in rows.windows(2) {
+        for i in 0..w[0].len() {
+            let [a, b, c, d] = [w[0][i], w[1][i], next(&w[1], i), next(&w[0], i)];
+            ground.triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    Site::new(vec![rectangle([0.0, 0.0, 40.0], 20.0, 20.0)], 0.5, ground).tolerance(0.01)
+}
+
+/// A slope through a notch that chords of a coarse tolerance are too low for goes on beyond it, and all the way, whether or not open
+/// ends are allowed.
+#[test]
+fn open_ends_are_none_where_the_slope_goes_on() {
+    let site = dike(0.01, 0.05);
+    let folder = Folder::of(&site);
+    let build = |more: &str| build_in(&folder, &format!("line.geojson --terrain ground.obj --slope 1:2 {more}"));
+    let [without, with] = ["", "--allow-open"].map(build);
+    // Closed in by the dike it would be a basin with 20 400 m² at 0 to 10 under the slope, some 360 000 m³.
+    assert!(without.figures().fill > 800_000.0);
+    assert_eq!(with.figures(), without.figures());
+    assert_eq!(with.report["volumes"]["complete"], true);
+    assert_eq!(with.number("daylight.open_length"), 0.0);
+    assert_eq!(
+        (with.design.tin.vertices, with.design.tin.triangles),
+        (without.design.tin.vertices, without.design.tin.triangles)
+    );
 }

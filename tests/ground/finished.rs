@@ -4,7 +4,7 @@ use crate::clip;
 use crate::common::build::rectangle;
 use crate::common::oracle;
 use crate::random::{pad, road};
-use crate::run::{Built, Feature, Mesh, build};
+use crate::run::{Built, Feature, Folder, Mesh, build};
 use crate::site::Site;
 use crate::tin::{Cells, Ground, plan_box, twice_area};
 use std::collections::{BTreeMap, BTreeSet};
@@ -281,4 +281,80 @@ fn slopes_are_as_asked() {
             assert!(off < 0.1, "{name}: triangle {t} is off by {off}°: {a:?} {b:?} {c:?}");
         }
     });
+}
+
+/// Heights in the certificate are those of slopes as they are written: by brute force over their corners, and over places inside.
+#[test]
+fn heights_are_measured_on_what_the_ground_leaves() {
+    const INSIDE: usize = 6;
+    each(|name, site, built| {
+        let told = built.number("certificate.height_max_deviation");
+        let design = &built.design;
+        let (mut at_corners, mut most, mut count) = (0.0_f64, 0.0_f64, 0);
+        for (corners, part) in design.tin.triangles.iter().zip(&design.parts) {
+            let (k, rising) = match part.as_str() {
+                "fill_slope" => (site.fill_slope, false),
+                "cut_slope" => (site.cut_slope, true),
+                _ => continue,
+            };
+            count += 1;
+            let corners = corners.map(|v| design.tin.vertices[v]);
+            let off = |[x, y, z]: [f64; 3]| (oracle::height(&site.lines, k, rising, x, y) - z).abs();
+            at_corners = corners.iter().fold(at_corners, |most, &p| most.max(off(p)));
+            for (i, j) in (0..INSIDE).flat_map(|i| (0..INSIDE - i).map(move |j| (i, j))) {
+                let [u, v] = [i, j].map(|i| (i as f64 + 1.0 / 3.0) / INSIDE as f64);
+                let [a, b, c] = corners;
+                most = most.max(off(std::array::from_fn(|n| a[n] + (b[n] - a[n]) * u + (c[n] - a[n]) * v)));
+            }
+        }
+        let rounding = 1e-7;
+        // Of more triangles only some are looked at.
+        assert!(count > 2048 || told >= at_corners - rounding, "{name}: {told}, at corners {at_corners}");
+        // Places are not the same.
+        assert!(told <= 1.1 * most.max(at_corners) + rounding, "{name}: {told}, by brute force {most}");
+    });
+}
+
+/// A pad 4 above level ground, slopes 1:2.
+fn above_level_ground() -> Folder {
+    let ground = Ground::grid([[-40.0, -40.0], [40.0, 40.0]], 8, 8, |_, _| 0.0);
+    Folder::of(&Site::new(vec![rectangle([-10.0, -10.0, 4.0], 20.0, 20.0)], 0.5, ground))
+}
+
+const UP_TO: &str = "build line.geojson --terrain ground.obj --slope 1:2 --tolerance 0.01 -o d.obj --report r.json";
+
+/// Slopes that end in the air at an end that was asked for would leave a wall there: told with the end, not with the line.
+#[test]
+fn no_walls_where_slopes_end() {
+    let folder = above_level_ground();
+    let run = folder.run(&format!("{UP_TO} --to-elevation 2 --allow-open --finished f.obj"));
+    assert_eq!(run.code, 1, "{}", run.stderr);
+    for words in
+        ["the slopes are still up to 2.000 above or below the ground", "give a later end, or none", "at the end asked for"]
+    {
+        assert!(run.stderr.contains(words), "{}", run.stderr);
+    }
+    assert!(!run.stderr.contains("--direction"), "{}", run.stderr);
+}
+
+/// An end that was asked for is met within the tolerance, or it is open, with the length of the rim there.
+#[test]
+fn ends_within_the_tolerance_are_no_open_ends() {
+    let folder = above_level_ground();
+    let report = || serde_json::from_str::<serde_json::Value>(&folder.read("r.json")).unwrap();
+    folder.run(&format!("{UP_TO} --to-elevation 0.009")).done();
+    let met = report();
+    assert_eq!(met["volumes"]["complete"], true);
+    assert_eq!((&met["daylight"]["open_length"], &met["warnings"]), (&serde_json::json!(0.0), &serde_json::json!([])));
+    let end = format!("{UP_TO} --to-elevation 0.011");
+    let refused = folder.run(&end);
+    assert!(refused.code == 1 && refused.stderr.contains("do not meet the ground"), "{}", refused.stderr);
+    folder.run(&format!("{end} --allow-open")).done();
+    let open = report();
+    assert_eq!(open["volumes"]["complete"], false);
+    assert_eq!(open["warnings"][0]["code"], "open-ends");
+    // Four sides of 20 and the circle of the corners, whose chords are shorter.
+    let rim = 80.0 + std::f64::consts::TAU * (4.0 - 0.011) / 0.5;
+    let found = open["daylight"]["open_length"].as_f64().unwrap();
+    assert!(found <= rim && found > 0.999 * rim, "{found} of {rim}");
 }

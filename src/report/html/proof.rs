@@ -62,18 +62,24 @@ fn checks(report: &Report, unit: &str) -> Vec<Check> {
         truth(
             "Facets pair",
             c.paired,
-            "Every crease between two facets is there from both sides: the slopes have no gap, nothing was missed.",
+            "Every crease between two facets is there from both sides: the slopes have no gap, nothing was missed. \
+             (On existing ground: before it cuts them.)",
         ),
         truth(
             "Manifold",
             c.manifold,
-            "No edge has more than two triangles, no vertex pinches, all triangles face up: one clean surface.",
+            "Every edge has at most two triangles, one on each side, and all triangles face up: one clean surface.",
         ),
-        none("Overlaps", c.overlaps, "Pairs of triangles on each other in plan: each place has one height."),
+        none(
+            "Overlaps",
+            c.overlaps,
+            "Edges of the border that cross in plan, or loops of it with several layers: none, so each place has one height.",
+        ),
         truth(
             "Line kept as edges",
             c.input_edges_kept,
-            "Every segment of the given line is a chain of edges of the mesh: the line was not moved.",
+            "Every segment of the given line is a chain of edges of the mesh: the line was not moved. \
+             (On existing ground: before it cuts the slopes.)",
         ),
         within(
             "Slope deviation, planar strips",
@@ -146,7 +152,9 @@ pub(super) fn method(report: &Report) -> Markup {
                     strong { "Volumes. " }
                     "Computed by " (v.method) ", "
                         (v.method_text) ". Simplification of the line and the chords of cones change each volume by "
-                        (plain(v.error_bound, 2)) " " (unit) "³ at most."
+                        (plain(v.error_bound, 2)) " " (unit) "³ at most"
+                    @if report.terrain.is_some() { ", for works that reach the same ground" }
+                    "."
                 }
                 li {
                     strong { "Sign rule. " }

@@ -33,7 +33,6 @@ pub(crate) fn run(bytes: &[u8]) {
         finished: choices.below(4) != 3,
         stations: [None, Some(5.0)][choices.below(2)],
         keep: true,
-        exactly: false,
     };
     let terrain = ground(&mut choices, k);
     let line = match drawn::line(&mut choices, k.min(cut), width) {
