@@ -33,17 +33,18 @@ pub(crate) fn run(bytes: &[u8]) {
         [Some(&terrains[0]), Some(&terrains[1]), area.as_ref()].map(|t| t.map(tins::obj).unwrap_or_default()).join("\n")
     });
     let found = between(&terrains[0], &terrains[1], area.as_ref());
-    check(&design, &existing, within.as_ref(), &found);
+    check(&design, &existing, within.as_ref(), false, &found);
     let level = i64::from(choices.byte() % 13) - 6;
     let flat = Whole { vertices: existing.vertices.iter().map(|v| [v[0], v[1], level]).collect(), ..existing.clone() };
     let found = to_elevation(&terrains[1], level as f64, area.as_ref());
     if exact::double(&existing) == 0.0 && !existing.triangles.is_empty() {
         // Only cells of a triangle with itself: others share at most a side.
-        check(&flat, &existing, within.as_ref(), &found);
+        check(&flat, &existing, within.as_ref(), true, &found);
     }
 }
 
-fn check(design: &Whole, existing: &Whole, within: Option<&Whole>, found: &Result<Between, OverlayError>) {
+/// `plane`: whether the design is a plane, which goes on over all of the area, and has no mesh of its own.
+fn check(design: &Whole, existing: &Whole, within: Option<&Whole>, plane: bool, found: &Result<Between, OverlayError>) {
     // Only the triangles near the other surface, or near the area, are looked at.
     let near = [within.unwrap_or(existing), within.unwrap_or(design)];
     let kept = [design.near(near[0]), existing.near(near[1])];
@@ -59,7 +60,8 @@ fn check(design: &Whole, existing: &Whole, within: Option<&Whole>, found: &Resul
                 agree(&sums, found);
             }
             let area = |mesh: &Whole| within.map_or_else(|| exact::area(mesh), |area| exact::between(mesh, area, None).common);
-            let beside = [area(design), area(existing)].map(|area| area - sums.common);
+            let reach = if plane { within.unwrap_or(design) } else { design };
+            let beside = [area(reach), area(existing)].map(|area| area - sums.common);
             let said = [found.areas.design_uncovered, found.areas.existing_uncovered];
             for (said, beside) in said.iter().zip(beside) {
                 assert!((said - beside).abs() < 1e-6, "beside {said} for {beside}");
