@@ -113,7 +113,7 @@ pub(super) fn in_order(targets: &[Target], is_report: impl Fn(usize) -> bool, is
     order
 }
 
-/// Writes the same report in all its formats, [`in_order`], and makes the files appear. Returns the files, in the order of `reports`.
+/// Writes the same report in all its formats, files before standard output, and makes the files appear. Returns the files, in the order of `reports`.
 ///
 /// # Errors
 /// As [`Outputs::write`] and [`Outputs::commit`], as an error of the job.
