@@ -15,8 +15,8 @@ use rayon::prelude::*;
 /// Pieces shorter than this (length units) are not parted further.
 const SHORTEST: f64 = 1e-6;
 
-/// A piece is looked at in at most this many parts.
-const MAX_PARTS: usize = 20_000;
+/// A piece is looked at in at most this many parts. What is not clear then is taken for a place where parts touch.
+const MAX_PARTS: usize = 500;
 
 /// An arc leaves its chord by no more than this many times what it does in the middle: rounding.
 const BULGE: f64 = 1.01;
@@ -35,7 +35,10 @@ const SINE_TO_CHORD: f64 = 1.1;
 pub fn intruded(sheet: &Sheet, closure: &Closure, arcs: &Arcs, slack: f64) -> Vec<(FacetId, f64)> {
     let look = Look { sheet, closure, arcs, slack };
     let facets = arcs.pieces.par_iter().enumerate();
-    let at_end = |piece: &&Piece| arcs.arcs[piece.arc as usize].partner == END;
+    let at_end = |piece: &&Piece| {
+        let arc = &arcs.arcs[piece.arc as usize];
+        arc.partner == END && sheet.facet(arc.owner).wanted
+    };
     facets.flat_map_iter(|(f, pieces)| pieces.iter().filter(at_end).flat_map(move |p| look.piece(f as FacetId, p))).collect()
 }
 
