@@ -15,7 +15,7 @@ use rayon::prelude::*;
 /// Pieces shorter than this (length units) are not parted further.
 const SHORTEST: f64 = 1e-6;
 
-/// A piece is looked at in at most this many parts. What is not clear then is taken for a place where parts touch.
+/// A piece is looked at in at most this many parts: where another sheet runs alongside, all but touching, there is no end of them.
 const MAX_PARTS: usize = 500;
 
 /// An arc leaves its chord by no more than this many times what it does in the middle: rounding.
@@ -31,7 +31,7 @@ const CLOSE: f64 = 0.4;
 const SINE_TO_CHORD: f64 = 1.1;
 
 /// Places of the outer end that lie lower than another sheet by more than `slack` (length units): facet and `τ`. None if there are
-/// none, proved for every place.
+/// none, proved for every place but on ends that need more than 500 parts.
 pub fn intruded(sheet: &Sheet, closure: &Closure, arcs: &Arcs, slack: f64) -> Vec<(FacetId, f64)> {
     let look = Look { sheet, closure, arcs, slack };
     let facets = arcs.pieces.par_iter().enumerate();
@@ -77,8 +77,9 @@ impl Look<'_> {
             count += 1;
             match self.part(f, [from, to]) {
                 Part::Clear => {}
+                Part::Below => return Some((f, 0.5 * (from.tau + to.tau))),
                 Part::Unclear(middle) if count < MAX_PARTS => parts.extend([[middle, to], [from, middle]]),
-                Part::Below | Part::Unclear(_) => return Some((f, 0.5 * (from.tau + to.tau))),
+                Part::Unclear(_) => return None,
             }
         }
         None
