@@ -73,7 +73,9 @@ impl Code {
         match cause {
             SurfaceError::Cancelled => Self::Interrupted,
             SurfaceError::TooLarge(_) => Self::Memory,
-            SurfaceError::Unclosed { .. } | SurfaceError::Unsound { .. } | SurfaceError::Flat { .. } => Self::Check,
+            SurfaceError::Unclosed { .. } | SurfaceError::Crowded | SurfaceError::Unsound { .. } | SurfaceError::Flat { .. } => {
+                Self::Check
+            }
             _ => Self::Work,
         }
     }

@@ -65,7 +65,8 @@ fn deviations(found: &Found, design: &Tin) -> Deviations {
         let foot = found.shape.foot_of[a as usize];
         let alpha = if design.parts[t] == Part::CutSlope { rising } else { falling };
         if let Some(alpha) = alpha.filter(|_| foot != NONE) {
-            deviations.take(design.corners(t), alpha, found.shape.feet[foot as usize].on_cone, is_measurable);
+            deviations
+                .take(design.corners(t), alpha, found.shape.feet[foot as usize].on_cone, |corners, _| is_measurable(corners));
         }
     }
     deviations

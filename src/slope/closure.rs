@@ -6,11 +6,15 @@
 //! anything new; facets are independent within a round.
 
 mod between;
+mod effort;
+mod gap;
 
 use super::facet::{END, FacetId, Kind, Lateral};
 use super::network::twin;
 use super::trim::{Sheet, Tip};
 use between::Between;
+pub use effort::Effort;
+use gap::Gap;
 use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
@@ -115,8 +119,8 @@ pub enum Scope {
 }
 
 /// Closes the facets of a sheet. `hints` are extra rulings to look at: facet and `τ`. Vertices of one facet closer than `snap`
-/// are one.
-pub fn close(sheet: &Sheet, scope: Scope, hints: &[(FacetId, f64)], snap: f64) -> Closure {
+/// are one. `None` when the effort ran out.
+pub fn close(sheet: &Sheet, scope: Scope, hints: &[(FacetId, f64)], snap: f64, effort: &Effort) -> Option<Closure> {
     let nodes = sheet.network.nodes.len();
     let joints = &sheet.fans.joints;
     let wanted = |f: FacetId| scope == Scope::All || sheet.facet(f).wanted;
@@ -125,13 +129,15 @@ pub fn close(sheet: &Sheet, scope: Scope, hints: &[(FacetId, f64)], snap: f64) -
         .par_iter()
         .map(|joint| {
             let foot = sheet.network.nodes[joint.node as usize];
-            if covered[joint.node as usize] || !(wanted(joint.left) || wanted(joint.right)) {
-                return Tip { r: 0.0, partner: END, point: foot };
+            if covered[joint.node as usize] || !(wanted(joint.left) || wanted(joint.right)) || effort.is_spent() {
+                return Tip { r: 0.0, partner: END, point: foot, compared: 0 };
             }
-            sheet.trim_joint(joint)
+            let tip = sheet.trim_joint(joint);
+            effort.compare(tip.compared);
+            tip
         })
         .collect();
-    let mut state = State::new(sheet, scope, tips, snap);
+    let mut state = State::new(sheet, scope, tips, snap, effort);
     let mut boundaries: Vec<Boundary> = (0..sheet.fans.facets.len() as FacetId)
         .into_par_iter()
         .map(|f| if wanted(f) { state.begin(f, &covered) } else { Boundary::default() })
@@ -147,10 +153,13 @@ pub fn close(sheet: &Sheet, scope: Scope, hints: &[(FacetId, f64)], snap: f64) -
         }
     }
     for _ in 0..MAX_ROUNDS {
-        if pending.is_empty() {
+        if pending.is_empty() || effort.is_spent() {
             break;
         }
         pending = state.round(&mut boundaries, pending);
+    }
+    if effort.is_spent() {
+        return None;
     }
     let mut stuck: Vec<FacetId> = pending.iter().map(|p| p.0).collect();
     stuck.extend((0..boundaries.len() as FacetId).filter(|&f| boundaries[f as usize].stuck));
@@ -163,7 +172,7 @@ pub fn close(sheet: &Sheet, scope: Scope, hints: &[(FacetId, f64)], snap: f64) -
         .filter(|&(f, k)| k != END && k != twin_strip(sheet, f) && !wanted(k))
         .count();
     let knots = boundaries.into_iter().map(|b| b.knots).collect();
-    Closure { knots, vertices: state.vertices, keys: state.keys, stuck, strangers, tips: state.tips }
+    Some(Closure { knots, vertices: state.vertices, keys: state.keys, stuck, strangers, tips: state.tips })
 }
 
 /// The entry of facet `f` in a list sorted by facet.
@@ -194,10 +203,11 @@ struct State<'a> {
     vertices: Vec<DVec3>,
     keys: Vec<Option<Key>>,
     ids: FxHashMap<Key, VertexId>,
+    effort: &'a Effort,
 }
 
 impl<'a> State<'a> {
-    fn new(sheet: &'a Sheet<'a>, scope: Scope, tips: Vec<Tip>, snap: f64) -> Self {
+    fn new(sheet: &'a Sheet<'a>, scope: Scope, tips: Vec<Tip>, snap: f64, effort: &'a Effort) -> Self {
         let mut vertices = sheet.network.nodes.clone();
         let mut keys: Vec<Option<Key>> = vec![None; vertices.len()];
         let mut ids = FxHashMap::default();
@@ -209,7 +219,7 @@ impl<'a> State<'a> {
             keys.push((tip.r > 0.0).then_some(key));
             vertices.push(tip.point);
         }
-        Self { sheet, scope, snap, tips, vertices, keys, ids }
+        Self { sheet, scope, snap, tips, vertices, keys, ids, effort }
     }
 
     fn tip_vertex(&self, joint: u32) -> VertexId {
@@ -260,7 +270,11 @@ impl<'a> State<'a> {
 
     /// The partner of ruling `τ`.
     fn look(&self, f: FacetId, tau: f64) -> FacetId {
+        if self.effort.is_spent() {
+            return END;
+        }
         let tip = self.sheet.trim_facet(f, tau);
+        self.effort.compare(tip.compared);
         if tip.r <= 0.0 { twin_strip(self.sheet, f) } else { tip.partner }
     }
 
@@ -272,9 +286,7 @@ impl<'a> State<'a> {
         let done: Vec<(FacetId, Boundary, Vec<Found>)> = work
             .into_par_iter()
             .map(|(f, mates, mut boundary)| {
-                for mate in mates {
-                    this.insert_mate(f, mate, &mut boundary.knots);
-                }
+                this.insert_mates(f, &mates, &mut boundary.knots);
                 let found = this.close_facet(f, &mut boundary);
                 (f, boundary, found)
             })
@@ -297,48 +309,56 @@ impl<'a> State<'a> {
         }
         let mut tell: Vec<(FacetId, VertexId)> = Vec::new();
         for (&id, &finder) in fresh.iter().zip(&finders) {
-            for f in self.keys[id as usize].into_iter().flatten() {
-                let known = f == finder
-                    || f == END
-                    || !(self.scope == Scope::All || self.sheet.facet(f).wanted)
-                    || boundaries[f as usize].knots.iter().any(|k| k.vertex == id);
-                if !known {
-                    tell.push((f, id));
-                }
-            }
+            let meet = self.keys[id as usize].into_iter().flatten();
+            let wanted = |f: FacetId| f != END && (self.scope == Scope::All || self.sheet.facet(f).wanted);
+            tell.extend(meet.filter(|&f| f != finder && wanted(f)).map(|f| (f, id)));
         }
         tell.sort_unstable();
         let mut next: Vec<(FacetId, Vec<VertexId>)> = Vec::new();
-        for (f, id) in tell {
-            match next.last_mut() {
-                Some((last, ids)) if *last == f => ids.push(id),
-                _ => next.push((f, vec![id])),
+        let mut known: Vec<VertexId> = Vec::new();
+        for told in tell.chunk_by(|a, b| a.0 == b.0) {
+            let f = told[0].0;
+            known.clear();
+            known.extend(boundaries[f as usize].knots.iter().map(|k| k.vertex));
+            known.sort_unstable();
+            let new: Vec<VertexId> = told.iter().map(|t| t.1).filter(|id| known.binary_search(id).is_err()).collect();
+            if !new.is_empty() {
+                next.push((f, new));
             }
         }
         next
     }
 
-    /// Puts a vertex that another facet found into the boundary of `f`, unless it stands there already.
-    fn insert_mate(&self, f: FacetId, vertex: VertexId, knots: &mut Vec<Knot>) {
-        let Some((left, right)) = self.keys[vertex as usize].and_then(|key| sides_of(f, key)) else { return };
-        let point = self.vertices[vertex as usize];
+    /// Puts vertices that other facets found into the boundary of `f`, unless what stands there speaks for them.
+    fn insert_mates(&self, f: FacetId, mates: &[VertexId], knots: &mut Vec<Knot>) {
         let facet = self.sheet.facet(f);
-        let (tau, _) = facet.parameters(point.truncate());
-        let same = |k: &Knot| k.vertex != HINT && self.vertices[k.vertex as usize].distance(point) <= self.snap;
-        if knots.iter().any(|k| k.vertex == vertex) {
-            return;
-        }
-        let tau = tau.clamp(0.0, facet.tau_max);
-        let at = knots.partition_point(|k| k.tau < tau).clamp(1, knots.len() - 1);
-        // A knot at the same place speaks for this vertex as well if the boundary is already consistent there.
-        let near = |i: usize| knots.get(i).is_some_and(&same);
-        if near(at - 1) || near(at) {
-            let consistent = |i: usize| i + 1 >= knots.len() || knots[i].right == knots[i + 1].left;
-            if consistent(at - 1) && consistent(at) && (at < 2 || consistent(at - 2)) {
-                return;
+        let knot = |&vertex: &VertexId| {
+            let (left, right) = self.keys[vertex as usize].and_then(|key| sides_of(f, key))?;
+            let (tau, _) = facet.parameters(self.vertices[vertex as usize].truncate());
+            Some(Knot { tau: tau.clamp(0.0, facet.tau_max), vertex, left, right })
+        };
+        let mut mates: Vec<Knot> = mates.iter().filter_map(knot).collect();
+        mates.sort_by(|a, b| a.tau.total_cmp(&b.tau).then(a.vertex.cmp(&b.vertex)));
+        let mut gap = Gap::new(knots);
+        for mate in mates {
+            self.effort.step();
+            gap.go_to(mate.tau);
+            if !self.speaks_for(&gap, &mate) {
+                gap.ahead.push(mate);
             }
         }
-        knots.insert(at, Knot { tau, vertex, left, right });
+    }
+
+    /// Whether a knot beside the gap at the place of `mate` speaks for it as well, because the boundary is consistent there.
+    fn speaks_for(&self, gap: &Gap, mate: &Knot) -> bool {
+        let point = self.vertices[mate.vertex as usize];
+        let same = |k: &Knot| k.vertex != HINT && self.vertices[k.vertex as usize].distance(point) <= self.snap;
+        let joins = |a: &Knot, b: &Knot| a.right == b.left;
+        let (Some(left), Some(right)) = (gap.behind.last(), gap.ahead.last()) else { return false };
+        (same(left) || same(right))
+            && joins(left, right)
+            && gap.behind.windows(2).next_back().is_none_or(|w| joins(&w[0], &w[1]))
+            && gap.ahead.windows(2).next_back().is_none_or(|w| joins(&w[1], &w[0]))
     }
 
     /// Closes the boundary of `f`; returns the junctions it found, knots numbered in the final list.
@@ -347,19 +367,18 @@ impl<'a> State<'a> {
         if boundary.stuck {
             return Vec::new();
         }
-        let knots = &mut boundary.knots;
         let budget = MAX_STEPS[0] + MAX_STEPS[1] * self.sheet.network.edges.len();
         let mut steps = 0;
-        let mut i = 0;
-        while i + 1 < knots.len() {
-            let (a, b) = (knots[i], knots[i + 1]);
+        let mut gap = Gap::new(&mut boundary.knots);
+        while let (Some(&a), Some(&b)) = (gap.behind.last(), gap.ahead.last()) {
             if a.right == b.left {
-                i += 1;
+                gap.step();
                 continue;
             }
             steps += 1;
-            let between = if steps > budget { Between::Stuck } else { self.between(f, &a, &b) };
-            match between {
+            self.effort.step();
+            let between = if steps > budget || self.effort.is_spent() { Between::Stuck } else { self.between(f, &a, &b) };
+            gap.ahead.push(match between {
                 Between::Junction { tau, left, right, point } => {
                     let key = key_of(f, right, left);
                     let vertex = match self.ids.get(&key) {
@@ -369,18 +388,18 @@ impl<'a> State<'a> {
                             FRESH + found.len() as VertexId - 1
                         }
                     };
-                    knots.insert(i + 1, Knot { tau, vertex, left, right });
+                    Knot { tau, vertex, left, right }
                 }
-                Between::Vertex { tau, left, right, vertex } => knots.insert(i + 1, Knot { tau, vertex, left, right }),
-                Between::Hint { tau, partner } => {
-                    knots.insert(i + 1, Knot { tau, vertex: HINT, left: partner, right: partner });
-                }
+                Between::Vertex { tau, left, right, vertex } => Knot { tau, vertex, left, right },
+                Between::Hint { tau, partner } => Knot { tau, vertex: HINT, left: partner, right: partner },
                 Between::Stuck => {
                     boundary.stuck = true;
                     break;
                 }
-            }
+            });
         }
+        drop(gap);
+        let knots = &mut boundary.knots;
         knots.retain(|k| k.vertex != HINT);
         let fresh = knots.iter().enumerate().filter(|(_, k)| k.vertex >= FRESH);
         fresh

@@ -12,6 +12,9 @@ use glam::{DVec2, DVec3};
 /// Heights that differ by less (length units, in double-double) are equal: more facets meet there than a vertex needs.
 const TIE: f64 = 1e-22;
 
+/// Points at a smaller angle (radians) to a shared ruling are looked at in double-double: on which side of it they lie.
+const ALONGSIDE: f64 = 1e-6;
+
 /// A node is covered when the sheet of other edges is higher there by more than this (length units).
 const COVERED: f64 = 1e-9;
 
@@ -38,6 +41,8 @@ pub struct Tip {
     pub partner: FacetId,
     /// The point.
     pub point: DVec3,
+    /// Edges compared with the ruling: the effort it took.
+    pub compared: u32,
 }
 
 /// The index of a network's edges.
@@ -176,13 +181,14 @@ impl<'a> Sheet<'a> {
     /// Trims the ruling with foot `foot`, direction `d`; edges for which `skip` holds do not count.
     pub fn trim(&self, foot: DVec3, d: DVec2, skip: impl Fn(u32) -> bool) -> Tip {
         let limit = (foot.z - self.end) / self.k;
-        let tip = |r: f64, partner| Tip { r, partner, point: (foot.truncate() + d * r).extend(foot.z - self.k * r) };
         if limit <= 0.0 {
-            return Tip { r: 0.0, partner: END, point: foot };
+            return Tip { r: 0.0, partner: END, point: foot, compared: 0 };
         }
         let ruling = Ruling { foot: foot.truncate(), z: foot.z, dir: d };
         let mut met = u32::MAX;
+        let mut compared = 0;
         let r = self.index.trim(&ruling, limit, &mut |e, current| {
+            compared += 1;
             if skip(e) {
                 return current;
             }
@@ -192,11 +198,12 @@ impl<'a> Sheet<'a> {
             }
             r
         });
+        let tip = |r: f64, partner| Tip { r, partner, point: ruling.at(r).extend(foot.z - self.k * r), compared };
         if met == u32::MAX {
             return tip(limit, END);
         }
         if r <= 0.0 {
-            return Tip { r: 0.0, partner: self.facet_at(met, foot.truncate()), point: foot };
+            return Tip { r: 0.0, partner: self.facet_at(met, foot.truncate()), point: foot, compared };
         }
         tip(r, self.facet_at(met, ruling.at(r)))
     }
@@ -218,6 +225,7 @@ impl<'a> Sheet<'a> {
         let length = |k: FacetId| self.joint_length(foot, d, k);
         let mut best = length(tip.partner);
         self.index.visit_above(tip.point.truncate(), tip.point.z - self.near(tip.point.truncate()), |e| {
+            tip.compared += 1;
             if self.touches(e, joint.node) {
                 return;
             }
@@ -231,9 +239,40 @@ impl<'a> Sheet<'a> {
                 tip.partner = rival;
             }
         });
+        // A strip and a cone are all but equally high beside the ruling they share. On which side of it the tip lies must agree with
+        // what that ruling finds of this joint, where the two lie alike.
+        let neighbour = self.beside(tip.partner, DdVec2::from(foot.truncate()) + d.scale(best));
+        if neighbour != tip.partner {
+            tip.partner = neighbour;
+            best = length(neighbour);
+        }
         tip.r = best.to_f64();
         tip.point = (foot.truncate() + joint.d * tip.r).extend(foot.z - self.k * tip.r);
         tip
+    }
+
+    /// The facet at `x` where it lies all but on a shared ruling of facet `k`: `k`, or the neighbour.
+    fn beside(&self, k: FacetId, x: DdVec2) -> FacetId {
+        if k == END {
+            return k;
+        }
+        for (end, lateral) in self.facet(k).lateral.into_iter().enumerate() {
+            let Lateral::Joint(j) = lateral else { continue };
+            let joint = &self.fans.joints[j as usize];
+            let foot = self.network.nodes[joint.node as usize].truncate();
+            let (w, down) = (x - DdVec2::from(foot), self.facet(joint.strip).gradient.scale(-Dd::ONE));
+            let (along, aside) = (down.dot(w).to_f64(), down.perp_dot(w));
+            if aside.to_f64().abs() > ALONGSIDE * along {
+                continue;
+            }
+            if end == 0 && aside.signum() > 0.0 {
+                return joint.left;
+            }
+            if end == 1 && aside.signum() < 0.0 {
+                return joint.right;
+            }
+        }
+        k
     }
 
     /// Length of the ruling from `foot` along `d` to the extended facet `k`, in double-double; a huge number where they do
@@ -265,12 +304,12 @@ impl<'a> Sheet<'a> {
         covered
     }
 
-    /// Whether another facet is higher at `x` than `f`, which meets `a` and `b` there.
-    pub fn intruded(&self, f: FacetId, a: FacetId, b: FacetId, x: DdVec2) -> bool {
+    /// Whether another facet is higher at `x` than `f`, which meets `a` and `b` there; and how many edges were compared for it.
+    pub fn intruded(&self, f: FacetId, a: FacetId, b: FacetId, x: DdVec2) -> (bool, u32) {
         let own = self.height_dd(f, x);
         let limit = own + Dd::from(TIE);
         if ![a, b].contains(&END) && Dd::from(self.end) > limit {
-            return true;
+            return (true, 0);
         }
         let plan = x.to_f64();
         let near = self.near(plan);
@@ -279,14 +318,15 @@ impl<'a> Sheet<'a> {
             Kind::Sector(node) => self.fans.leaving(node)[0] / 2,
         };
         if self.index.height(plan, Some(hint)).0 > own.to_f64() + near {
-            return true;
+            return (true, 1);
         }
-        let mut intruded = false;
+        let (mut intruded, mut compared) = (false, 0);
         self.index.visit_above(plan, own.to_f64() - near, |e| {
+            compared += 1;
             intruded =
                 intruded || ([f, a, b].iter().all(|&g| g == END || !self.belongs(g, e)) && self.edge_height_dd(e, x) > limit);
         });
-        intruded
+        (intruded, compared)
     }
 
     /// The joint through which facets `a` and `b` are neighbours, with `a` on the left.

@@ -16,10 +16,6 @@ use rayon::prelude::*;
 /// Triangles lower than this (length units) are too small for an angle.
 pub(crate) const MEASURABLE_HEIGHT: f64 = 1e-4;
 
-/// Triangles of slopes narrower than this in plan (length units) are too narrow for one: points as close as that are taken for
-/// one where facets meet.
-const MEASURABLE_WIDTH: f64 = SNAP;
-
 /// Bounds of the slope (degrees): in planar strips, on cones.
 pub(crate) const STRIP_BOUND: f64 = 0.01;
 pub(crate) const CONE_BOUND: f64 = 0.1;
@@ -103,8 +99,13 @@ pub(crate) fn measure(
 /// Deviations of the triangles of a sheet from its slope.
 fn deviations(design: &Design, body: &Body) -> Deviations {
     let alpha = design.slope.ratio().atan();
+    // Vertices closer than that are taken for one where facets meet: what a move of a corner by as much does to a triangle says
+    // nothing of its slope.
+    let moved = SNAP.max(height_rounding(&body.tin));
     let found = (0..body.on_cone.len()).into_par_iter().fold(Deviations::default, |mut found, t| {
-        found.take(body.tin.corners(t), alpha, body.on_cone[t], |corners| width(corners) > MEASURABLE_WIDTH);
+        found.take(body.tin.corners(t), alpha, body.on_cone[t], |corners, deviation| {
+            deviation.to_radians() * width(corners) > moved
+        });
         found
     });
     found.reduce(Deviations::default, Deviations::join)
@@ -120,15 +121,21 @@ pub(crate) struct Deviations {
 
 impl Deviations {
     /// Takes a triangle of a slope of the angle `alpha` (radians), unless it is too small for an angle: lower than
-    /// [`MEASURABLE_HEIGHT`], or not `measurable`, which is asked only where it matters.
-    pub(crate) fn take(&mut self, [a, b, c]: [DVec3; 3], alpha: f64, on_cone: bool, measurable: impl Fn([DVec3; 3]) -> bool) {
+    /// [`MEASURABLE_HEIGHT`], or not `measurable`, which is asked only where it matters, with the deviation (degrees).
+    pub(crate) fn take(
+        &mut self,
+        [a, b, c]: [DVec3; 3],
+        alpha: f64,
+        on_cone: bool,
+        measurable: impl Fn([DVec3; 3], f64) -> bool,
+    ) {
         if a.z.max(b.z).max(c.z) - a.z.min(b.z).min(c.z) <= MEASURABLE_HEIGHT {
             return;
         }
         let normal = (b - a).cross(c - a);
         let deviation = (normal.truncate().length().atan2(normal.z) - alpha).abs().to_degrees();
         let worst = if on_cone { &mut self.sectors } else { &mut self.strips };
-        if deviation > worst.min(COUNTED) && measurable([a, b, c]) {
+        if deviation > worst.min(COUNTED) && measurable([a, b, c], deviation) {
             *worst = worst.max(deviation);
             self.beyond_0_1deg += usize::from(deviation > COUNTED);
         }

@@ -120,6 +120,11 @@ pub enum SurfaceError {
         /// All creases.
         arcs: usize,
     },
+    /// Too many facets meet in one place, all but tied.
+    #[error(
+        "too many slopes meet in one place, closer than their heights can be told apart\n   = help: try a larger `--tolerance`: it leaves out vertices that tell nothing"
+    )]
+    Crowded,
     /// The mesh failed its own check.
     #[error(
         "the mesh failed its check: {what}\n   = help: try another `--tolerance`; this is a limit of the program, please report the line"

@@ -71,6 +71,7 @@ pub(super) fn made(line: &Line, design: &Design, plane: Option<&Plane>, watch: &
         task.meshed(&solve::solve(ask, watch)?, &go_on)
     };
     match made(SNAP) {
+        Err(SurfaceError::Crowded) => Err(SurfaceError::Crowded),
         // Vertices taken for one may turn over the tips of very narrow strips.
         Err(flaw) if flaw.is_flaw() => match made(FINER_SNAP) {
             Err(finer) if finer.is_flaw() => Err(flaw),

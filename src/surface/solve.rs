@@ -5,7 +5,7 @@ use crate::kernel::orientation::{Turn, turn};
 use crate::kernel::segment_tree::SegmentTree;
 use crate::slope::arcs::Arcs;
 use crate::slope::clear;
-use crate::slope::closure::{self, Closure, Scope};
+use crate::slope::closure::{self, Closure, Effort, Scope};
 use crate::slope::cover::Covers;
 use crate::slope::facet::{END, FacetId};
 use crate::slope::refine::WIDEST_WEDGE;
@@ -49,11 +49,12 @@ pub(super) fn solve(ask: Ask, watch: &dyn Watch) -> Result<Solved, SurfaceError>
     let mut solved;
     let mut intruded;
     let mut attempt = 0;
+    let effort = Effort::for_edges(sheet.network.edges.len());
     loop {
         if watch.cancelled() {
             return Err(SurfaceError::Cancelled);
         }
-        let closure = closure::close(sheet, scope, &hints, snap);
+        let Some(closure) = closure::close(sheet, scope, &hints, snap, &effort) else { return Err(SurfaceError::Crowded) };
         if closure.strangers > 0 && scope == Scope::Wanted {
             scope = Scope::All;
             continue;

@@ -12,7 +12,7 @@ use crate::model::{Joggle, Note};
 const SHARES: [f64; 6] = [1e-3, 1e-3, 1e-2, 1e-2, 1e-1, 1e-1];
 
 /// Smaller shifts (length units) drown in what counts as touching.
-const LEAST_SHIFT: f64 = 5e-7;
+const LEAST_SHIFT: f64 = 5e-8;
 
 impl SurfaceError {
     /// Whether moving the line a little may help.

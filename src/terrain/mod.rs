@@ -83,7 +83,7 @@ pub fn prepare(raw: RawTerrain) -> Result<Prepared, Defects> {
             }
             faces::check(&source.label, &corners, &terrain, triangles, &turned, &mut notes)?
         }
-        _ => points::triangulate(&source.label, &terrain, &mut notes)?,
+        _ => points::triangulate(&source.label, &mut terrain, &mut notes)?,
     };
     if terrain.triangles.is_empty() {
         return Err(place::nothing_left(&source.label));

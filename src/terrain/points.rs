@@ -22,14 +22,18 @@ impl HasPosition for Vertex {
 }
 
 /// The Delaunay triangulation of the vertices of `terrain`, in a fixed order. Of points at one place the first is used.
-pub(super) fn triangulate(label: &str, terrain: &Terrain, notes: &mut Vec<Note>) -> Result<Vec<[u32; 3]>, Defects> {
+/// Coordinates so small that the triangulation refuses them, far below any resolution, become nought.
+pub(super) fn triangulate(label: &str, terrain: &mut Terrain, notes: &mut Vec<Note>) -> Result<Vec<[u32; 3]>, Defects> {
+    for value in terrain.vertices.iter_mut().flat_map(|p| [&mut p.x, &mut p.y]) {
+        // Minus nought too: points are compared by their bits.
+        if value.abs() < spade::MIN_ALLOWED_VALUE {
+            *value = 0.0;
+        }
+    }
+    let terrain = &*terrain;
     let points = &terrain.vertices;
-    let vertices: Vec<Vertex> = points
-        .iter()
-        .enumerate()
-        // Beyond what can be subtracted twice without loss, tiny numbers are nought to the triangulation.
-        .map(|(i, p)| Vertex { position: Point2::new(settled(p.x), settled(p.y)), id: i as u32 })
-        .collect();
+    let vertices: Vec<Vertex> =
+        points.iter().enumerate().map(|(i, p)| Vertex { position: Point2::new(p.x, p.y), id: i as u32 }).collect();
     let triangulation = DelaunayTriangulation::<Vertex>::bulk_load(vertices).map_err(|cause| {
         let help = "correct the coordinates";
         defect("ground-points", "the points of the ground cannot be triangulated", label.into(), cause.to_string(), help)
@@ -64,11 +68,6 @@ pub(super) fn triangulate(label: &str, terrain: &Terrain, notes: &mut Vec<Note>)
     Ok(triangles)
 }
 
-/// Numbers so small that the triangulation refuses them are nought: far below any resolution.
-fn settled(value: f64) -> f64 {
-    if value.abs() < spade::MIN_ALLOWED_VALUE { 0.0 } else { value }
-}
-
 /// For each point the first at its place; tells of the others.
 fn firsts(terrain: &Terrain, notes: &mut Vec<Note>) -> Vec<u32> {
     let mut places: FxHashMap<[u64; 2], u32> = FxHashMap::default();
@@ -76,7 +75,7 @@ fn firsts(terrain: &Terrain, notes: &mut Vec<Note>) -> Vec<u32> {
     let mut worst = (0.0, 0, 0);
     let mut first = Vec::with_capacity(terrain.vertices.len());
     for (i, p) in terrain.vertices.iter().enumerate() {
-        let key = [p.x, p.y].map(|value| (settled(value) + 0.0).to_bits());
+        let key = [p.x, p.y].map(f64::to_bits);
         let at = *places.entry(key).or_insert(i as u32);
         first.push(at);
         if at as usize != i {
@@ -192,13 +191,23 @@ mod tests {
     #[test]
     fn of_points_at_one_place_the_first_counts() {
         let vertices = [(0.0, 0.0, 1.0), (4.0, 0.0, 1.0), (0.0, 4.0, 1.0), (4.0, 0.0, 3.5), (0.0, 0.0, 1.0), (-0.0, 0.0, 1.0)];
-        let terrain = Terrain { frame: Frame::WORLD, vertices: vertices.map(DVec3::from).to_vec(), triangles: Vec::new() };
+        let mut terrain = Terrain { frame: Frame::WORLD, vertices: vertices.map(DVec3::from).to_vec(), triangles: Vec::new() };
         let mut notes = Vec::new();
-        let mut triangles = triangulate("a.xyz", &terrain, &mut notes).unwrap();
+        let mut triangles = triangulate("a.xyz", &mut terrain, &mut notes).unwrap();
         triangles[0].sort_unstable();
         assert_eq!(triangles, [[0, 1, 2]]);
         let text: Vec<&str> = notes.iter().map(|note| note.message.as_str()).collect();
         assert!(text[0].starts_with("left out 2 points"), "{text:?}");
         assert!(text[1].contains("by up to 2.5: at (4, 0, 1), points 2 and 4"), "{text:?}");
+    }
+
+    #[test]
+    fn coordinates_below_any_resolution_become_nought() {
+        let vertices = [(4e-44, 3e-37, 1.0), (1e-38, 9e-39, 2.0), (-0.0, 4e-37, 3.0), (1.0, -1e-300, 4.0)];
+        let mut terrain = Terrain { frame: Frame::WORLD, vertices: vertices.map(DVec3::from).to_vec(), triangles: Vec::new() };
+        let triangles = triangulate("a.xyz", &mut terrain, &mut Vec::new()).unwrap();
+        let [first, _, third, last] = terrain.vertices[..] else { panic!() };
+        assert_eq!((first.x, third.x.to_bits(), last.y), (0.0, 0, 0.0));
+        assert!(!triangles.is_empty());
     }
 }

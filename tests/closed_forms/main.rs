@@ -13,3 +13,4 @@ mod extents;
 mod profiles;
 mod rings;
 mod sides;
+mod ties;

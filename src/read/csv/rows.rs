@@ -42,9 +42,10 @@ pub(super) fn is_comment(row: &str, delimiter: Option<Delimiter>) -> bool {
     row.starts_with("//") || row.starts_with('%') || (row.starts_with(';') && delimiter != Some(Delimiter::Semicolon))
 }
 
-/// Whether a row has nothing but blanks of any kind (form feeds, no-break spaces) and delimiters.
+/// Whether a row has nothing but blanks of any kind (form feeds, no-break spaces, byte order marks of files put together) and
+/// delimiters.
 pub(super) fn is_blank(row: &str, delimiter: Delimiter) -> bool {
-    row.chars().all(|c| c.is_whitespace() || c == char::from(delimiter.byte()))
+    row.chars().all(|c| c.is_whitespace() || c == '\u{feff}' || c == char::from(delimiter.byte()))
 }
 
 /// The rows with data, one per line, with row number and block of each. Runs of blanks become one tab where blanks separate.
@@ -124,5 +125,11 @@ mod tests {
         assert_eq!(clean, "1\t2\t3\n4\t5\t6\n7\t8\t9\n");
         assert_eq!(places, [(1, 0), (3, 1), (5, 2)]);
         assert!(is_blank(", \t,", Delimiter::Comma) && !is_blank(",", Delimiter::Semicolon));
+    }
+
+    #[test]
+    fn a_row_of_a_byte_order_mark_alone_is_blank() {
+        assert!(is_blank("\u{feff}", Delimiter::Comma) && !is_blank("\u{feff}1", Delimiter::Comma));
+        assert_eq!(clean("x,y,z\n\u{feff}\n", Delimiter::Comma, 1), (String::new(), Vec::new()));
     }
 }

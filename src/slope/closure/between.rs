@@ -47,7 +47,9 @@ impl State<'_> {
                 if let Some((neighbour, vertex)) = self.beyond(f, kb, plan, a, b) {
                     return self.step_over(f, kb, neighbour, vertex, a, b, tau);
                 }
-                if self.sheet.intruded(f, ka, kb, x) {
+                let (intruded, compared) = self.sheet.intruded(f, ka, kb, x);
+                self.effort.compare(compared);
+                if intruded {
                     // The intruder need not be what the ruling meets first, and its plane reaches farther than its strip: look.
                     return self.hint_by_looking(f, a, b, tau);
                 }
