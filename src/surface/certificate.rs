@@ -99,13 +99,15 @@ pub(crate) fn measure(
 /// Deviations of the triangles of a sheet from its slope.
 fn deviations(design: &Design, body: &Body) -> Deviations {
     let alpha = design.slope.ratio().atan();
-    // Vertices closer than that are taken for one where facets meet: what a move of a corner by as much does to a triangle says
-    // nothing of its slope.
+    // Vertices closer than SNAP are taken for one where facets meet: what a move of a corner by as much does to a triangle says nothing
+    // of its slope. A narrow one is out of bounds only where it takes more.
     let moved = SNAP.max(height_rounding(&body.tin));
+    let measurable = |corners: [DVec3; 3], deviation: f64| {
+        let width = width(corners);
+        width > SNAP && (deviation <= STRIP_BOUND || deviation.to_radians() * width > moved)
+    };
     let found = (0..body.on_cone.len()).into_par_iter().fold(Deviations::default, |mut found, t| {
-        found.take(body.tin.corners(t), alpha, body.on_cone[t], |corners, deviation| {
-            deviation.to_radians() * width(corners) > moved
-        });
+        found.take(body.tin.corners(t), alpha, body.on_cone[t], measurable);
         found
     });
     found.reduce(Deviations::default, Deviations::join)

@@ -17,7 +17,7 @@ const LEAST_SHIFT: f64 = 5e-8;
 impl SurfaceError {
     /// Whether moving the line a little may help.
     pub(crate) fn is_flaw(&self) -> bool {
-        matches!(self, Self::Unclosed { .. } | Self::Unsound { .. })
+        matches!(self, Self::Unclosed { .. } | Self::Crowded | Self::Unsound { .. })
     }
 }
 
