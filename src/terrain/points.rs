@@ -173,6 +173,7 @@ pub(super) fn grid(label: &str, grid: &RawGrid, notes: &mut Vec<Note>) -> Result
 mod tests {
     use super::*;
     use crate::kernel::frame::Frame;
+    use crate::kernel::orientation::{Turn, turn};
 
     #[test]
     fn cells_are_cut_along_the_flatter_diagonal() {
@@ -208,6 +209,11 @@ mod tests {
         let triangles = triangulate("a.xyz", &mut terrain, &mut Vec::new()).unwrap();
         let [first, _, third, last] = terrain.vertices[..] else { panic!() };
         assert_eq!((first.x, third.x.to_bits(), last.y), (0.0, 0, 0.0));
-        assert!(!triangles.is_empty());
+        // Four places, three of them on the hull or all: no triangle is upside down.
+        assert!((2..=3).contains(&triangles.len()), "{triangles:?}");
+        for t in triangles {
+            let [a, b, c] = t.map(|v| terrain.vertices[v as usize].truncate());
+            assert_eq!(turn(a, b, c), Turn::Left, "{t:?}");
+        }
     }
 }
