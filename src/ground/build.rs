@@ -124,7 +124,8 @@ impl<'a> Site<'a> {
         surface::in_spite_of_touching(Design::least_tolerance(&designs), GroundError::is_flaw, |joggle| {
             let designs: Vec<Design> = designs.iter().map(|design| Design { joggle, ..design.clone() }).collect();
             let mut built = self.once(&designs, whole, found, options, watch)?;
-            built.0.notes.extend(joggle.map(surface::joggle_note));
+            let one_sided = designs.iter().any(|design| design.one_sided(self.line));
+            built.0.notes.extend(joggle.map(|joggle| surface::joggle_note(joggle, one_sided)));
             Ok(built)
         })
     }

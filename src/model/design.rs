@@ -73,6 +73,11 @@ impl Design {
         self.side_of_rings == Side::Inside && line.chains.iter().all(|c| c.closed())
     }
 
+    /// Whether open lines have slopes on one of their sides alone.
+    pub fn one_sided(&self, line: &Line) -> bool {
+        self.side_of_lines != Side::Both && line.chains.iter().any(|c| !c.closed())
+    }
+
     /// The tightest of the tolerances of designs; infinite for none.
     pub fn least_tolerance(designs: &[Self]) -> f64 {
         designs.iter().map(|design| design.tolerance).fold(f64::INFINITY, f64::min)

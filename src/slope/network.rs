@@ -116,7 +116,9 @@ impl Network {
             Self { frame, sign, nodes: points, edges: Vec::new(), simplified: 0, collinear: 0, simplified_max: 0.0 }
                 .with_edges(&pieces, slopes, bound);
         if let Some(joggle) = design.joggle {
-            network.joggle(joggle, slopes[0].min(slopes[1]), design.extent);
+            // Two sheets through one line share its points. A sheet alone is to be the mirror image of that of the mirrored line.
+            let up = if design.companion.is_some() { sign } else { 1.0 };
+            network.joggle(joggle, up, slopes[0].min(slopes[1]), design.extent);
         }
         network
     }
@@ -126,8 +128,9 @@ impl Network {
         self.nodes[edge.a as usize].truncate().distance(self.nodes[edge.b as usize].truncate())
     }
 
-    /// Moves the nodes in height, so little that every edge stays flatter than `flattest`. Nodes where the slope is to end stay.
-    fn joggle(&mut self, joggle: Joggle, flattest: f64, extent: Extent) {
+    /// Moves the nodes in height, so little that every edge stays flatter than `flattest`; `up`: the sign of a shift up. Nodes
+    /// where the slope is to end stay.
+    fn joggle(&mut self, joggle: Joggle, up: f64, flattest: f64, extent: Extent) {
         let mut most = vec![joggle.most; self.nodes.len()];
         for edge in &self.edges {
             let (a, b) = (self.nodes[edge.a as usize], self.nodes[edge.b as usize]);
@@ -141,7 +144,7 @@ impl Network {
             .nodes
             .iter()
             .zip(most)
-            .map(|(p, most)| if fixed(p.z) { 0.0 } else { self.sign * Joggle { most, ..joggle }.shift(p.x, p.y) })
+            .map(|(p, most)| if fixed(p.z) { 0.0 } else { up * Joggle { most, ..joggle }.shift(p.x, p.y) })
             .collect();
         for (node, shift) in self.nodes.iter_mut().zip(&shifts) {
             node.z += shift;

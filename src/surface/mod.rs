@@ -153,7 +153,7 @@ pub struct Surface {
 pub fn build(line: &Line, design: &Design, reference: Option<f64>, watch: &dyn Watch) -> Result<Surface, SurfaceError> {
     in_spite_of_touching(design.tolerance, SurfaceError::is_flaw, |joggle| {
         let mut surface = made(line, &Design { joggle, ..design.clone() }, Some(&Plane { reference }), watch)?;
-        surface.notes.extend(joggle.map(joggle_note));
+        surface.notes.extend(joggle.map(|joggle| joggle_note(joggle, design.one_sided(line))));
         Ok(surface)
     })
     .map_err(|error| if watch.cancelled() { SurfaceError::Cancelled } else { error })

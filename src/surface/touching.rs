@@ -40,12 +40,14 @@ pub(crate) fn in_spite_of_touching<T, E>(
 }
 
 /// What is to be told of a joggled line.
-pub(crate) fn note(joggle: Joggle) -> Note {
-    Note::new(
-        "line-joggled",
-        format!(
-            "parts of the line touch each other's slopes exactly: its vertices were moved by up to {:.1e} in height to tell them apart",
-            joggle.most
-        ),
-    )
+pub(crate) fn note(joggle: Joggle, one_sided: bool) -> Note {
+    let mut message = format!(
+        "parts of the line touch each other's slopes exactly: its vertices were moved by up to {:.1e} in height to tell them apart",
+        joggle.most
+    );
+    if one_sided {
+        message += "; a part that lies in the slope of another ends that slope or is covered by it, so this may decide what the \
+                    slopes of one side cover: move the part up or down to choose";
+    }
+    Note::new("line-joggled", message)
 }

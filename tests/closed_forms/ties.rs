@@ -1,6 +1,6 @@
 //! Lines whose sheets tie: mirrored notches, points where hundreds of sheets meet, and coordinates so large that rounding shows.
 
-use crate::common::build::{build, design, line, on_both_sheets, open, regular, ring};
+use crate::common::build::{build, design, line, mirrored, mirrored_design, on_both_sheets, open, regular, ring, upside_down};
 use crate::common::measure::{close, height, plan_area};
 use crate::common::oracle::Polyline;
 use slopegen::model::{Design, Extent, Part, Side};
@@ -79,6 +79,41 @@ fn the_middle_of_a_polygon_of_very_many_corners() {
         let volume = area * depth / 3.0;
         assert!((surface.volumes.cut - volume).abs() <= moved * area + 1e-12 * volume, "{} for {volume}", surface.volumes.cut);
         assert!((surface.volumes.cut_max - depth).abs() <= moved + 1e-12 * depth, "{} for {depth}", surface.volumes.cut_max);
+    }
+}
+
+/// The second segment lies exactly in the slope of the first: the rulings of that one run to the north, level for level. Moved apart
+/// by a hair, the second segment either ends the slope, or is covered, and the slope goes on beyond: on one side of the line two
+/// surfaces of different extent. A tie is one of the two, told, and the same for the line upside down.
+///
+/// Where the slope ends, the right side is the triangle (0, 0), (0, 5), (−15, 5) and, on the right of the second segment, what is
+/// not under the cone of the first vertex: `10 + 2(5 − y) < 2√(x² + y²)` for `x` from 0 to 5, so `y > 5 − x²/20`; what the last segment
+/// adds is less than 0.02.
+#[test]
+fn a_segment_in_the_slope_of_another() {
+    let end = 34.627_416_997_969_52;
+    let at = |aside: f64, side: Side| {
+        let points = [[0.0, aside, 0.0], [-15.0, 5.0, -10.0], [5.0, 5.0, -10.0], [-5.0, -5.0, 2.0 - end]];
+        let wanted = Design { side_of_lines: side, tolerance: 0.06, ..design(2.0, Extent::Elevation(-end)) };
+        let given = line(&[open(&points)]);
+        let surface = build(&given, &wanted);
+        let mirror = mirrored(build(&upside_down(&given), &mirrored_design(&wanted)));
+        assert_eq!(surface.tin.vertices, mirror.tin.vertices);
+        assert_eq!(surface.volumes, mirror.volumes);
+        assert_eq!(joggled(&surface), aside == 0.0);
+        surface.areas.plan
+    };
+    let triangle = 0.5 * 15.0 * 5.0 + 125.0 / 60.0;
+    close(at(-1e-6, Side::Right), triangle, 0.02, "clear of the slope");
+    for side in [Side::Left, Side::Right, Side::Both] {
+        let [clear, tie, covered] = [-1e-6, 0.0, 1e-6].map(|aside| at(aside, side));
+        if side == Side::Both {
+            close(clear, covered, 0.05, "both sides");
+        } else {
+            assert!((clear - covered).abs() > 100.0, "{side:?}: {clear}, {covered}");
+        }
+        // Shifts of up to 6·10⁻⁵ move the crease of two planes that differ by little.
+        assert!((tie - clear).abs() < 0.5 || (tie - covered).abs() < 0.5, "{side:?}: {tie} for {clear} or {covered}");
     }
 }
 

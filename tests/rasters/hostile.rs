@@ -99,6 +99,37 @@ fn absurd_sizes_are_refused() {
     assert!(look(&tiled).unwrap_err().contains("impossible size"));
 }
 
+/// Each number of the place is finite, their product is not.
+#[test]
+fn places_beyond_all_numbers_are_refused() {
+    for (size, corner) in [(1e308, 0.0), (5e307, 0.0), (2.5e307, -1.7e308), (1e308, -1.7e308), (1e300, f64::MAX)] {
+        for transposed in [false, true] {
+            let [x, y] = if transposed { [10.0, size] } else { [size, 20.0] };
+            let maker = Maker::new(Kind::F32).doubles(33550, &[x, y, 0.0]);
+            let maker = maker.doubles(33922, &[0.0, 0.0, 0.0, corner, -corner, 0.0]);
+            // Seven rows below the corner, five columns beside it.
+            let far = corner + if transposed { 6.5 } else { 4.5 } * size;
+            let result = look(&maker.make(|_, _| 1.0));
+            if far.is_finite() {
+                result.unwrap();
+            } else {
+                let error = result.unwrap_err();
+                assert!(error.contains("the grid reaches beyond all numbers"), "{size} {corner}: {error}");
+            }
+        }
+    }
+}
+
+#[test]
+fn heights_scaled_beyond_all_numbers_are_none() {
+    let text = "<GDALMetadata><Item name=\"SCALE\" sample=\"0\" role=\"scale\">1e300</Item></GDALMetadata>";
+    let file = Maker::new(Kind::F64).text(42112, text).make(|column, _| if column == 0 { 9e19 } else { 1.0 });
+    let raw = ground(InputFormat::GeoTiff, &file, &[]).unwrap();
+    sound(&raw);
+    let slopegen::read::terrain::RawGround::Grid(grid) = raw.ground else { panic!("no grid") };
+    assert!(grid.heights.iter().enumerate().all(|(i, z)| if i % 5 == 0 { z.is_nan() } else { *z == 1e300 }));
+}
+
 /// Ten megabytes of noughts in ten kilobytes: only what the image needs is unpacked.
 #[test]
 fn bombs_do_not_go_off() {

@@ -92,6 +92,31 @@ pub struct RawGrid {
     pub heights: Vec<f64>,
 }
 
+impl RawGrid {
+    /// The north-east node.
+    fn far(&self) -> DVec2 {
+        self.origin + DVec2::new(self.columns.saturating_sub(1) as f64, self.rows.saturating_sub(1) as f64) * self.step
+    }
+
+    /// Refuses nodes so far away that there is no number for their place.
+    fn within_numbers(&self, label: &str) -> Result<(), ReadError> {
+        let far = self.far();
+        if self.origin.is_finite() && far.is_finite() {
+            return Ok(());
+        }
+        let figures = format!(
+            "{} × {} nodes, {} by {} apart, from {} to {far}",
+            self.columns, self.rows, self.step.x, self.step.y, self.origin
+        );
+        Err(refuse(
+            "the grid reaches beyond all numbers",
+            label,
+            figures,
+            "correct the size of its cells, or export the file again",
+        ))
+    }
+}
+
 /// The shape of ground as a file gives it. All coordinates are finite.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RawGround {
@@ -191,6 +216,9 @@ fn parse(label: &str, bytes: &[u8], options: &TerrainOptions, by_name: Option<&C
         },
     );
     let (ground, said, notes) = read?;
+    if let RawGround::Grid(grid) = &ground {
+        grid.within_numbers(label)?;
+    }
     source.kind = said.kind;
     source.crs = said.crs;
     source.unit = said.unit;

@@ -74,13 +74,9 @@ pub(super) fn read(label: &str, bytes: &[u8], memory: &Memory, notes: &mut Vec<N
         notes.push(Note::new("raster-scaled", message));
     }
     for value in &mut heights {
-        *value = if *value == marker || !value.is_finite() || value.abs() >= NO_HEIGHT {
-            f64::NAN
-        } else if scaled || factor != 1.0 {
-            (*value * scale + offset) * factor
-        } else {
-            *value
-        };
+        let none = *value == marker || !value.is_finite() || value.abs() >= NO_HEIGHT;
+        let height = if scaled || factor != 1.0 { (*value * scale + offset) * factor } else { *value };
+        *value = if none || !height.is_finite() { f64::NAN } else { height };
     }
     if let Some(mask) = &images.mask {
         apply(&tiff, mask, &image, &mut heights)?;
