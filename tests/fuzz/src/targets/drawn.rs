@@ -107,21 +107,23 @@ pub(crate) fn raw(choices: &mut Choices<'_>, k: f64) -> RawInput {
     RawInput { source, lines, notes: Vec::new() }
 }
 
-/// A line as the program takes it, roads widened; or what it says against it.
-pub(crate) fn line(choices: &mut Choices<'_>, k: f64, width: Option<f64>) -> Result<Line, String> {
+/// A line as the program takes it, roads widened, and what to type for it; or what the program says against it.
+pub(crate) fn line(choices: &mut Choices<'_>, k: f64, width: Option<f64>) -> Result<(Line, String), String> {
     let raw = raw(choices, k);
     let mut line = validate::check(&raw, &validate::Options::default()).map_err(|e| e.to_string())?.line;
+    let mut typed = geojson(&line);
     if let Some(width) = width {
         let fall = [0.0, 0.025, -0.025][choices.below(3)];
         let crossfall = Crossfall { left: fall, right: if choices.below(2) == 0 { fall } else { -fall } };
+        typed += &format!("width {width}, {crossfall:?}\n");
         let formation = Formation { width, crossfall, chord: 0.01 / 3.0 };
         line = formation::widen(&line, "a", &formation).map_err(|e| e.to_string())?.line;
     }
-    formation::place(line, "a", 0.01).map_err(|e| e.to_string())
+    Ok((formation::place(line, "a", 0.01).map_err(|e| e.to_string())?, typed))
 }
 
 /// The line as GeoJSON with all its digits, to show what was found with the program itself.
-pub(crate) fn geojson(line: &Line) -> String {
+fn geojson(line: &Line) -> String {
     let feature = |chain: &slopegen::model::Chain| {
         let mut positions: Vec<String> = chain.vertices.iter().map(|p| format!("[{},{},{}]", p.x, p.y, p.z)).collect();
         let (kind, open, close) = if chain.closed() { ("Polygon", "[[", "]]") } else { ("LineString", "[", "]") };

@@ -29,8 +29,8 @@ pub(crate) fn run(bytes: &[u8]) {
     let width = [None, None, None, Some(1.0), Some(3.0), Some(8.0)][choices.below(6)];
     // A road has its slopes outside.
     let side = if width.is_some() { None } else { side };
-    let line = match drawn::line(&mut choices, k, width) {
-        Ok(line) => line,
+    let (line, typed) = match drawn::line(&mut choices, k, width) {
+        Ok(drawn) => drawn,
         Err(message) => return telling(&message),
     };
     let (low, high) = line.elevation_range();
@@ -50,7 +50,7 @@ pub(crate) fn run(bytes: &[u8]) {
         Ok(design) => design,
         Err(error) => return telling(&error.to_string()),
     };
-    let shown = || format!("{}\n{wishes:?}\n", drawn::geojson(&line));
+    let shown = || format!("{typed}{wishes:?}\n");
     limits::show(&shown);
     match surface::build(&line, &design, None, &()) {
         Ok(surface) => Look { line: &line, design: &design, surface: &surface, bytes, shown: &shown }.all(),

@@ -35,8 +35,8 @@ pub(crate) fn run(bytes: &[u8]) {
         keep: true,
     };
     let terrain = ground(&mut choices, k);
-    let line = match drawn::line(&mut choices, k.min(cut), width) {
-        Ok(line) => line,
+    let (line, typed) = match drawn::line(&mut choices, k.min(cut), width) {
+        Ok(drawn) => drawn,
         Err(message) => return telling(&message),
     };
     if terrain.triangles.is_empty() {
@@ -67,11 +67,8 @@ pub(crate) fn run(bytes: &[u8]) {
         }
     }
     let shown = || {
-        format!(
-            "{}{}{k} {cut} {side:?} {width:?} {direction} {tolerance} {options:?}\n",
-            drawn::geojson(&line),
-            tins::obj(&terrain)
-        )
+        let ground = tins::obj(&terrain);
+        format!("{typed}{ground}{k} {cut} {side:?} {width:?} {direction} {tolerance} {options:?}\n")
     };
     limits::show(&shown);
     match site.build(&designs, &options, &()) {
