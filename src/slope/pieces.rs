@@ -104,6 +104,13 @@ pub(super) fn pieces(line: &Line, design: &Design, segments: &Segments, order: &
             Role::Hole { polygon } => (design.side_of_rings, signed_area(&chain.vertices) < 0.0, Some(polygon)),
         };
         let against = order.against(c as u32);
+        let side = match side {
+            Side::Left | Side::Right if chain.closed() => {
+                let left = (side == Side::Left) != against;
+                if left == interior_left { Side::Inside } else { Side::Outside }
+            }
+            side => side,
+        };
         let wanted = match side {
             Side::Left => [!against, against],
             Side::Right => [against, !against],

@@ -3,12 +3,14 @@
 use super::SurfaceError;
 use super::buried::{Found, freeing};
 use super::formation::{Roads, Threads};
+use crate::kernel::segment;
 use crate::kernel::segment_tree::SegmentTree;
 use crate::mesh::check::HalfEdges;
 use crate::mesh::region::{self, RegionError};
 use crate::model::{Chain, Design, Extent, Line, Note, Role, Sheet};
 use crate::slope::emit::{Slopes, Trace};
 use crate::slope::network::{Edge, Network};
+use glam::DVec2;
 use rustc_hash::FxHashSet;
 
 /// Flat parts, in numbers of the emission.
@@ -23,6 +25,9 @@ pub(super) struct Flats {
     /// Things worth knowing.
     pub(super) notes: Vec<Note>,
 }
+
+/// Places nearer to the outline of a platform in plan (length units) lie on it.
+const ON_OUTLINE: f64 = 1e-6;
 
 /// Whether edge `edge` bounds a platform on side `side`: the unsloped inside of a ring.
 fn bounds_platform(edge: &Edge, side: usize) -> bool {
@@ -42,28 +47,45 @@ pub(super) fn refuse_covered(line: &Line, design: &Design, network: &Network, hi
     Ok(())
 }
 
-/// Refuses lines that run over a platform: their slopes would pass over it. Along its edge they may run.
+/// Refuses lines that run over a platform, at whatever height: their slopes would pass over it. Along its edge they may run.
 fn keep_off(line: &Line, network: &Network) -> Result<(), SurfaceError> {
     let outline: Vec<usize> =
         (0..network.edges.len()).filter(|&e| (0..2).any(|side| bounds_platform(&network.edges[e], side))).collect();
     let plan = |node: u32| network.nodes[node as usize].truncate();
-    let ends: Vec<_> = outline.iter().map(|&e| (plan(network.edges[e].a), plan(network.edges[e].b))).collect();
-    let tree = SegmentTree::new(&ends);
+    let ends: Vec<_> = outline.iter().map(|&e| [plan(network.edges[e].a), plan(network.edges[e].b)]).collect();
+    let tree = SegmentTree::new(&ends.iter().map(|&[a, b]| (a, b)).collect::<Vec<_>>());
     // With the platform on one side only; those with one on both sides are inside of it.
     let bounds: Vec<bool> =
         outline.iter().map(|&e| bounds_platform(&network.edges[e], 0) != bounds_platform(&network.edges[e], 1)).collect();
+    let on_platform = |p: DVec2| {
+        let mut inside = false;
+        tree.ray(p, |i| {
+            let [a, b] = ends[i];
+            let left = (b - a).perp_dot(p - a) > 0.0;
+            inside ^= bounds[i] && (a.y > p.y) != (b.y > p.y) && left == (b.y > a.y);
+        });
+        inside
+    };
     for edge in network.edges.iter().filter(|edge| edge.interior == [false; 2]) {
         let chain = &line.chains[edge.given[0].chain as usize];
-        let middle = 0.5 * (plan(edge.a) + plan(edge.b));
-        let mut inside = false;
-        tree.ray(middle, |i| {
-            let (a, b) = ends[i];
-            let left = (b - a).perp_dot(middle - a) > 0.0;
-            inside ^= bounds[i] && (a.y > middle.y) != (b.y > middle.y) && left == (b.y > a.y);
+        if chain.closed() {
+            continue;
+        }
+        let (a, b) = (plan(edge.a), plan(edge.b));
+        let (length, middle) = (a.distance(b), 0.5 * (a + b));
+        let mut places = vec![0.0, 1.0];
+        tree.near(middle, 0.5 * length, |i| {
+            places.extend(segment::meeting([a, b], ends[i]).points().map(|p| segment::foot(p, [a, b])))
         });
-        if inside && !chain.closed() {
-            let at = network.world(middle.extend(0.0));
-            return Err(SurfaceError::LineOnPlatform { name: chain.name.clone(), x: at.x, y: at.y });
+        places.sort_unstable_by(f64::total_cmp);
+        for part in places.windows(2).filter(|part| (part[1] - part[0]) * length > ON_OUTLINE) {
+            let p = a.lerp(b, 0.5 * (part[0] + part[1]));
+            let mut on_outline = false;
+            tree.near(p, ON_OUTLINE, |i| on_outline |= segment::distance(p, ends[i]) <= ON_OUTLINE);
+            if !on_outline && on_platform(p) {
+                let at = network.world(p.extend(0.0));
+                return Err(SurfaceError::LineOnPlatform { name: chain.name.clone(), x: at.x, y: at.y });
+            }
         }
     }
     Ok(())
