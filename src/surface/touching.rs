@@ -21,22 +21,32 @@ impl SurfaceError {
     }
 }
 
-/// Builds on the line as given, and where that fails with a flaw, on joggled ones. Another error of a joggled line tells nothing
-/// of the given one.
+/// Builds on the line as given, and where that fails with a flaw, on joggled ones.
 ///
 /// # Errors
-/// That of the line as given.
+/// Where no joggled line can be built either: what is wrong with the first of them whose error is no flaw, for it is as near to the
+/// line as given as what would have been built; else the flaw.
 pub(crate) fn in_spite_of_touching<T, E>(
     tolerance: f64,
     is_flaw: impl Fn(&E) -> bool,
     build: impl Fn(Option<Joggle>) -> Result<T, E>,
 ) -> Result<T, E> {
-    let failed = match build(None) {
+    let mut failed = match build(None) {
         Err(error) if is_flaw(&error) => error,
         done => return done,
     };
-    let shifts = SHARES.iter().zip(1..).map(|(share, set)| Joggle { most: share * tolerance, set });
-    shifts.filter(|joggle| joggle.most >= LEAST_SHIFT).find_map(|joggle| build(Some(joggle)).ok()).ok_or(failed)
+    for (share, set) in SHARES.iter().zip(1..) {
+        let joggle = Joggle { most: share * tolerance, set };
+        if joggle.most < LEAST_SHIFT {
+            continue;
+        }
+        match build(Some(joggle)) {
+            Err(error) if is_flaw(&failed) && !is_flaw(&error) => failed = error,
+            Err(_) => {}
+            done => return done,
+        }
+    }
+    Err(failed)
 }
 
 /// What is to be told of a joggled line.
