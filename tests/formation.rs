@@ -349,6 +349,13 @@ fn refusals_name_places_figures_and_cures() {
     // Legs that touch.
     let touching = message(&[[0., 0., 1.], [100., 0., 1.], [100., 40., 1.], [0., 40., 1.], [0., 8., 1.], [60., 8., 1.]], 8.0);
     assert!(touching.contains("8.000 apart, the width is 8\n   = help: give `--width` 7.99 or less"), "{touching}");
+    // An S of legs of 2: from a width of 1.9 on the inner edges pass on the wrong side of the ends, at 6 and more without crossing.
+    let s_bend = [[0., 0., 1.], [2., 0., 1.], [0., 2., 1.], [2., 2., 1.]];
+    assert!(widened(&[open(&s_bend)], &road(1.5, 0.0, 0.0)).is_ok());
+    for width in [1.9, 3.0, 4.0, 6.0, 8.0, 100.0] {
+        let refused = message(&s_bend, width);
+        assert!(refused.contains("has no inner edge") || refused.contains("lies on itself"), "{width}: {refused}");
+    }
     // A bow tie.
     let crossed = message(&[[0., 0., 1.], [50., 0., 1.], [50., 20., 1.], [25., -20., 1.]], 2.0);
     assert!(crossed.contains("near stations 37.500 and 93.585 the centre line is 0.000 apart"), "{crossed}");

@@ -97,6 +97,7 @@ fn road(
     points.append(&mut back);
     points.push(on_centre(&centre, 0));
     check_itself(&points, &centre, formation.width).map_err(refused)?;
+    check_inside(&points, &centre).map_err(refused)?;
 
     let origin = chain.vertices[0].truncate();
     let world = |p: &EdgePoint| {
@@ -174,6 +175,25 @@ fn check_itself(points: &[EdgePoint], centre: &Centre, width: f64) -> Result<(),
         }
     }
     Err(Fault::Narrow { stations: best.0, distance: best.1 })
+}
+
+/// The centre line runs inside of its road, from end to end. It does not where a bend is so tight, for its distance from an end of
+/// the line, that the inner edge passes on the wrong side.
+fn check_inside(points: &[EdgePoint], centre: &Centre) -> Result<(), Fault> {
+    let edges = points.iter().zip(points.iter().cycle().skip(1)).map(|(a, b)| (a.plan, b.plan));
+    let (n, last) = (points.len(), centre.plan.len() - 1);
+    let ends: Vec<(DVec2, DVec2)> = edges.chain(centre.plan.windows(2).map(|w| (w[0], w[1]))).collect();
+    let at_end = |p: DVec2| [0, last].into_iter().any(|v| p.distance(centre.plan[v]) <= MERGE_DISTANCE);
+    let mut found = None;
+    SegmentTree::new(&ends).pairs(|i, j| {
+        let (edge, segment) = (i.min(j), i.max(j));
+        if edge < n && segment >= n {
+            let at = meeting(ends[edge].into(), ends[segment].into()).points().find(|&p| !at_end(p));
+            found = found.or(at.map(|_| points[edge].vertex));
+        }
+        found.is_none()
+    });
+    found.map_or(Ok(()), |vertex| Err(Fault::NoRoom { vertex }))
 }
 
 fn fold_note(name: &str, edges: &[&[EdgePoint]; 2], width: f64) -> Option<Note> {
