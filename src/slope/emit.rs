@@ -13,7 +13,7 @@ use super::network::Given;
 use super::refine::Cut;
 use super::trim::Sheet;
 use cell::Cell;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use shared::Shared;
 
@@ -62,6 +62,18 @@ pub struct Slopes {
     pub failed: Vec<FacetId>,
     /// Length of the longest ruling.
     pub longest_ruling: f64,
+}
+
+/// Plan coordinates of points that are not given are whole multiples of 1/`GRAINS` (length units): what rounding leaves of a round number is
+/// dust (10⁻¹⁷) that would keep a ruling from running along the edge of a ground, or of another mesh, where it does.
+const GRAINS: f64 = (1_u64 << 42) as f64;
+
+/// The point with the dust off.
+fn dusted(p: DVec3) -> DVec3 {
+    // Coordinates so large that they have no such fractions stay what they are.
+    let plan = p.truncate();
+    // The nought added takes the sign off another.
+    ((plan * GRAINS).round() / GRAINS + DVec2::ZERO).extend(p.z)
 }
 
 /// Facets that are triangulated at one go: lists for each of them would cost more than what is in them.

@@ -1,7 +1,7 @@
 //! The cells of facets in triangles.
 
 use super::shared::Shared;
-use super::{EdgePoint, PointId, Trace, Traced};
+use super::{EdgePoint, PointId, Trace, Traced, dusted};
 use crate::kernel::range::held;
 use crate::slope::arcs::Piece;
 use crate::slope::closure::VertexId;
@@ -56,7 +56,7 @@ impl Shared<'_> {
 
     /// Numbers a point of the cell's own.
     fn add(&self, point: DVec3, cell: &mut Cell) -> PointId {
-        cell.points.push(point);
+        cell.points.push(dusted(point));
         self.count() + cell.points.len() as PointId - 1
     }
 

@@ -1,6 +1,6 @@
 //! Numbers for the points that facets share.
 
-use super::{EdgePoint, PointId};
+use super::{EdgePoint, PointId, dusted};
 use crate::slope::arcs::Arcs;
 use crate::slope::closure::{Closure, Knot, VertexId};
 use crate::slope::facet::FacetId;
@@ -27,12 +27,13 @@ pub(super) struct Shared<'a> {
 
 impl<'a> Shared<'a> {
     pub(super) fn new(sheet: &'a Sheet<'a>, closure: &'a Closure, arcs: &'a Arcs, cut: &'a Cut<'a>) -> Self {
+        let (nodes, found) = closure.vertices.split_at(sheet.network.nodes.len());
         let mut shared = Self {
             sheet,
             closure,
             arcs,
             cut,
-            points: closure.vertices.clone(),
+            points: nodes.iter().copied().chain(found.iter().copied().map(dusted)).collect(),
             arc_start: Vec::new(),
             joint_start: Vec::new(),
             edge_points: Vec::new(),
@@ -55,7 +56,7 @@ impl<'a> Shared<'a> {
         self.arc_start.reserve(inner.len() + 1);
         for points in inner {
             self.arc_start.push(self.points.len() as PointId);
-            self.points.extend(points);
+            self.points.extend(points.into_iter().map(dusted));
         }
         self.arc_start.push(self.points.len() as PointId);
     }
@@ -80,10 +81,10 @@ impl<'a> Shared<'a> {
             let end = if length < tip.r { node.lerp(end, length / tip.r) } else { end };
             for u in self.cut.levels.crossed(node.z, end.z) {
                 let c = self.cut.levels.heights[u];
-                self.points.push(node.lerp(end, (c - node.z) / (end.z - node.z)).truncate().extend(c));
+                self.points.push(dusted(node.lerp(end, (c - node.z) / (end.z - node.z)).truncate().extend(c)));
             }
             if length < tip.r {
-                self.points.push(end);
+                self.points.push(dusted(end));
             }
         }
         self.joint_start.push(self.points.len() as PointId);
@@ -105,7 +106,7 @@ impl<'a> Shared<'a> {
                     let c = self.cut.levels.heights[u];
                     let t = (c - before.1.z) / (point.z - before.1.z);
                     list.push(EdgePoint { s: before.0 + (s - before.0) * t, id: self.points.len() as PointId, given: None });
-                    self.points.push(before.1.lerp(point, t).truncate().extend(c));
+                    self.points.push(dusted(before.1.lerp(point, t).truncate().extend(c)));
                 }
                 if given.is_some() {
                     list.push(EdgePoint { s, id: self.points.len() as PointId, given });
