@@ -13,7 +13,8 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// A panic inside tells the file by the line printed before.
+/// A panic inside tells the file by the line printed before. Files whose names begin with `limit_` show known limits of the program,
+/// others have none.
 #[test]
 fn every_file_passes() {
     let root = Path::new("fixtures/fuzz");
@@ -22,7 +23,11 @@ fn every_file_passes() {
         assert!(!files.is_empty(), "`{name}` has no files");
         for file in files {
             println!("{}", file.display());
+            let before = targets::limits::noted();
             target(&std::fs::read(&file).unwrap());
+            let limited = targets::limits::noted() > before;
+            let known = file.file_name().is_some_and(|name| name.to_string_lossy().starts_with("limit_"));
+            assert_eq!(limited, known, "{}", file.display());
         }
     }
     let known = |folder: &PathBuf| targets::TARGETS.iter().any(|(name, _)| folder.ends_with(name));

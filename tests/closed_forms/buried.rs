@@ -1,8 +1,8 @@
 //! Lines that lie below the slope of another part: stretches, depths and the slope that would free them.
 
-use crate::common::build::{design, line, on_both_sheets, open, polygon, rectangle, ring};
-use crate::common::measure::{close, height, length};
-use slopegen::model::{CurveKind, Design, Extent, Side};
+use crate::common::build::{build, design, line, on_both_sheets, open, polygon, rectangle, ring};
+use crate::common::measure::{close, height, length, plan_area};
+use slopegen::model::{CurveKind, Design, Extent, Part, Side};
 use slopegen::surface::{self, SurfaceError};
 
 /// Places on the line: the engine finds entries by crossing straight facets.
@@ -253,14 +253,33 @@ fn the_higher_of_two_lines_over_each_other_shows() {
     });
 }
 
-/// A line over a platform is no part of it, and its slopes may not pass over it.
+/// A line over a platform is no part of it, and its slopes may not pass over it: wherever its middle lies, and at any height. Beside the
+/// platform, and along its edge, it may run.
 #[test]
 fn a_line_over_a_platform_is_refused() {
-    for (z, to) in [(1.0, 60.0), (0.0, 60.0), (1.0, 150.0)] {
-        let given = line(&[rectangle([0.0, 0.0, 0.0], 100.0, 100.0), open(&[[40.0, 50.0, z], [to, 50.0, z]])]);
+    let over = [
+        [[40.0, 50.0, 1.0], [60.0, 50.0, 1.0]],
+        [[40.0, 50.0, 0.0], [60.0, 50.0, 0.0]],
+        [[40.0, 50.0, 1.0], [150.0, 50.0, 1.0]],
+        // Across the whole of it, its middle beyond; over a corner of it; from a corner; from an edge to the next.
+        [[-10.0, 50.0, 2.0], [400.0, 40.0, 2.0]],
+        [[-200.0, 205.0, 30.0], [21.0, -16.0, 30.0]],
+        [[0.0, 0.0, 0.0], [300.0, 250.0, 60.0]],
+        [[0.0, 99.0, 1.0], [1.0, 100.0, 1.0]],
+        [[-50.0, 50.0, -20.0], [1.0, 50.0, -20.0]],
+    ];
+    for ends in over {
+        let given = line(&[rectangle([0.0, 0.0, 0.0], 100.0, 100.0), open(&ends)]);
         match surface::build(&given, &design(0.5, Extent::Elevation(-5.0)), None, &()) {
             Err(SurfaceError::LineOnPlatform { name, .. }) => assert_eq!(name, "line 2"),
-            other => panic!("{z} {to}: {:?}", other.map(|s| s.certificate)),
+            other => panic!("{ends:?}: {:?}", other.map(|s| s.certificate)),
         }
+    }
+    for ends in
+        [[[-50.0, -10.0, 0.0], [200.0, -10.0, 0.0]], [[-50.0, 0.0, 0.0], [200.0, 0.0, 0.0]], [[0.0, 0.0, 0.0], [-9.0, -9.0, 0.0]]]
+    {
+        let given = line(&[rectangle([0.0, 0.0, 0.0], 100.0, 100.0), open(&ends)]);
+        let surface = build(&given, &design(0.5, Extent::Elevation(-5.0)));
+        close(plan_area(&surface, Part::Platform), 1e4, 1e-9, "platform");
     }
 }

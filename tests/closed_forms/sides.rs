@@ -92,3 +92,43 @@ fn holes_side_by_side() {
         assert!(found < slopes + 1e-6 && found > slopes - 0.1, "{found} for {slopes}");
     });
 }
+
+/// Left and right of a ring are its inside or outside, as it runs. With slopes on the outside of a pad, a line along its edge has none
+/// on the pad, whichever side of it is asked for; the slope beyond its end is its own.
+#[test]
+fn one_side_of_a_ring_and_of_a_line_along_it() {
+    let (k, depth) = (0.5, 2.0);
+    let wide = depth / k;
+    let along = |from: f64, to: f64| open(&[[from, 0.0, 0.0], [to, 0.0, 0.0]]);
+    // Counter-clockwise: its outside is on the right.
+    for (mut pad, outside) in
+        [(rectangle([0.0, 0.0, 0.0], 30.0, 20.0), Side::Right), (rectangle([0.0, 0.0, 0.0], 30.0, 20.0), Side::Left)]
+    {
+        if outside == Side::Left {
+            pad.points.reverse();
+        }
+        for (from, to) in [(0.0, 30.0), (30.0, 0.0), (5.0, 25.0), (25.0, 5.0), (10.0, 40.0), (40.0, 10.0)] {
+            let beyond = (f64::max(from, to) - 30.0).max(0.0);
+            for side in [Side::Left, Side::Right, Side::Both] {
+                let wanted = Design { side_of_rings: outside, side_of_lines: side, ..design(k, Extent::Height(depth)) };
+                on_both_sheets(&line(&[pad.clone(), along(from, to)]), &wanted, |surface| {
+                    close(plan_area(surface, Part::Platform), 600.0, 1e-9, "platform");
+                    let slopes = surface.areas.plan - plan_area(surface, Part::Platform);
+                    // Strips and four quarters of cones. Beyond the pad the strips of the line take the place of one quarter; where
+                    // the one to the north meets that of the pad, half of a square goes to each, built or not.
+                    let quarter = 0.25 * PI * wide * wide;
+                    let northward = side == Side::Left && to > from || side == Side::Right && to < from;
+                    let more = match side {
+                        _ if beyond == 0.0 => 0.0,
+                        Side::Both => 2.0 * beyond * wide - wide * wide + quarter,
+                        _ if northward => beyond * wide - wide * wide - quarter,
+                        _ => beyond * wide - 0.5 * wide * wide - quarter,
+                    };
+                    let expected = 100.0 * wide + 4.0 * quarter + more;
+                    // Chords of cones.
+                    assert!(slopes < expected + 1e-6 && slopes > expected - 0.3, "{side:?} {from} {to}: {slopes} for {expected}");
+                });
+            }
+        }
+    }
+}

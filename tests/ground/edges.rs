@@ -94,6 +94,22 @@ fn slopes_that_end_along_the_edge_of_the_ground() {
     }
 }
 
+/// A line along the edge of level ground, and on: half of a prism and of a cone lie on the ground. The rulings at the ends of the line run along
+/// that edge, whose coordinate is no round number for all slopes.
+#[test]
+fn a_line_along_the_edge_of_the_ground() {
+    let (k, h) = (0.5, 4.0);
+    let r = h / k;
+    let fill = 16.0 * 0.5 * r * h + 0.5 * PI * r * r * h / 3.0;
+    for y in [0.0, 5.0, 60.0] {
+        for (cells, tolerance) in [([4, 2], 0.1), ([1, 1], 0.05), ([7, 3], 0.01)] {
+            let ground = Ground::grid([[-20.0, y - 20.0], [20.0, y]], cells[0], cells[1], |_, _| -h);
+            let line = open(&[[-8.0, y, 0.0], [3.0, y, 0.0], [8.0, y, 0.0]]);
+            comes_to(&format!("{y}, {cells:?}"), &Site::new(vec![line], k, ground).tolerance(tolerance), fill);
+        }
+    }
+}
+
 /// Pads of half width `a`, `h` above level ground that ends along a line. Strips of a slope have the section `h²/2k`, four corners make
 /// a cone.
 #[test]

@@ -1,5 +1,6 @@
 //! Refusals that are limits of the program and not of what was asked for.
 
+use std::cell::Cell;
 use std::fs;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::path::Path;
@@ -7,8 +8,19 @@ use std::path::Path;
 /// Name of a folder in the environment that the inputs are kept in, by kind.
 const FOLDER: &str = "SLOPEGEN_FUZZ_LIMITS";
 
+thread_local! {
+    static NOTED: Cell<usize> = const { Cell::new(0) };
+}
+
+/// How many were noted on this thread.
+#[allow(dead_code, reason = "asked by the tests, not by the fuzzers")]
+pub(crate) fn noted() -> usize {
+    NOTED.get()
+}
+
 /// Notes a limit: they are known, rare, and no reason to stop. `case` shows it with the program itself.
 pub(crate) fn note(kind: &str, bytes: &[u8], case: &str) {
+    NOTED.set(NOTED.get() + 1);
     let Some(folder) = std::env::var_os(FOLDER) else { return };
     let folder = Path::new(&folder).join(kind);
     let mut hasher = DefaultHasher::new();

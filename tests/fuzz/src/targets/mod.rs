@@ -9,7 +9,7 @@ mod exact;
 mod files;
 mod ground;
 mod grounds;
-mod limits;
+pub(crate) mod limits;
 mod lines;
 mod messages;
 #[path = "../../../common/oracle.rs"]
