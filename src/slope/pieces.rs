@@ -17,6 +17,8 @@ pub(super) struct Piece {
     /// Wishes of all others: what one of them wants holds.
     others: [bool; 2],
     pub(super) interior: [bool; 2],
+    /// Where the inside of a ring that slopes outwards lies: no slope begins there, whatever another line wants.
+    platform: [bool; 2],
     /// The places of its ends on the line.
     pub(super) given: [Given; 2],
     /// Whether it runs against its chain.
@@ -24,19 +26,21 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    /// The wishes of another line that runs here too (for slopes outside, for others) and its inside, as seen from this one.
-    fn seen(&self, other: &Self) -> (Option<[bool; 2]>, [bool; 2], [bool; 2]) {
+    /// The wishes of another line that runs here too (for slopes outside, for others), its inside and its platform, as seen from
+    /// this one.
+    fn seen(&self, other: &Self) -> (Option<[bool; 2]>, [[bool; 2]; 3]) {
         let same = self.ends == other.ends;
         let turned = |sides: [bool; 2]| if same { sides } else { [sides[1], sides[0]] };
-        (other.outside.map(turned), turned(other.others), turned(other.interior))
+        (other.outside.map(turned), [other.others, other.interior, other.platform].map(turned))
     }
 
     /// Takes over another ring of the same polygon that runs here too, as where a hole reaches the edge of its polygon: the inside of
     /// the polygon has no width here, and no slopes inside.
     fn join_ring(&mut self, other: &Self, side: Side) {
-        let (outside, others, interior) = self.seen(other);
+        let (outside, [others, interior, platform]) = self.seen(other);
         for s in 0..2 {
             self.interior[s] &= interior[s];
+            self.platform[s] &= platform[s];
             if let (Some(mine), Some(its)) = (&mut self.outside, outside) {
                 mine[s] |= its[s];
             }
@@ -47,13 +51,14 @@ impl Piece {
 
     /// Takes over the wishes of another line that runs here too, whichever comes first.
     fn join(&mut self, other: &Self) {
-        let (outside, others, interior) = self.seen(other);
+        let (outside, [others, interior, platform]) = self.seen(other);
         self.outside = match (self.outside, outside) {
             (Some([a, b]), Some([c, d])) => Some([a && c, b && d]),
             (one, other) => one.or(other),
         };
         for s in 0..2 {
             self.interior[s] |= interior[s];
+            self.platform[s] |= platform[s];
             self.others[s] |= others[s];
         }
         self.settle();
@@ -63,8 +68,7 @@ impl Piece {
     fn settle(&mut self) {
         for s in 0..2 {
             // A platform has no slopes on it: lines along its edge have theirs on the other side only.
-            let platform = self.outside.is_some() && self.interior[s];
-            self.wanted[s] = !platform && (self.others[s] || self.outside.is_some_and(|outside| outside[s]));
+            self.wanted[s] = !self.platform[s] && (self.others[s] || self.outside.is_some_and(|outside| outside[s]));
         }
     }
 }
@@ -129,9 +133,10 @@ pub(super) fn pieces(line: &Line, design: &Design, segments: &Segments, order: &
                     let vertex = i as u32 + u32::from(t >= 1.0);
                     Given { chain: c as u32, vertex, part: if t >= 1.0 { 0.0 } else { t } }
                 };
-                let (outside, others) = if side == Side::Outside { (Some(wanted), [false; 2]) } else { (None, wanted) };
+                let (outside, others, platform) =
+                    if side == Side::Outside { (Some(wanted), [false; 2], interior) } else { (None, wanted, [false; 2]) };
                 let given = [place(w[0].0), place(w[1].0)];
-                let piece = Piece { ends, wanted, outside, others, interior, given, against };
+                let piece = Piece { ends, wanted, outside, others, interior, platform, given, against };
                 of_polygons.add(polygon, piece, |one, other| match polygon {
                     Some(_) => one.join_ring(other, side),
                     None => one.join(other),

@@ -132,3 +132,28 @@ fn one_side_of_a_ring_and_of_a_line_along_it() {
         }
     }
 }
+
+/// Two pads side by side that run round in opposite ways: right of one is outside, right of the other inside. On the edge they share the
+/// slope of the second begins, and the platform of the first.
+#[test]
+fn rings_of_both_directions_side_by_side() {
+    let (k, depth) = (0.5, 2.0);
+    let wide = depth / k;
+    let mut inward = rectangle([30.0, 0.0, 0.0], 40.0, 20.0);
+    inward.points.reverse();
+    for rings in
+        [[rectangle([0.0, 0.0, 0.0], 30.0, 20.0), inward.clone()], [inward.clone(), rectangle([0.0, 0.0, 0.0], 30.0, 20.0)]]
+    {
+        let right = Design { side_of_rings: Side::Right, ..design(k, Extent::Height(depth)) };
+        on_both_sheets(&line(&rings), &right, |surface| {
+            close(plan_area(surface, Part::Platform), 600.0, 1e-9, "platform");
+            // About three sides of the first, with two corners; within the second all of it but the middle. Where the outer slopes of the
+            // first meet the line of the second, they end at the ruling across.
+            let inside = 40.0 * 20.0 - (40.0 - 2.0 * wide) * (20.0 - 2.0 * wide);
+            let outside = 80.0 * wide + 2.0 * 0.25 * PI * wide * wide;
+            let found = surface.areas.plan - 600.0;
+            let expected = inside + outside;
+            assert!(found < expected + 1e-6 && found > expected - 0.2, "{found} for {expected}");
+        });
+    }
+}
