@@ -9,7 +9,7 @@ use common::lines::Random;
 use common::oracle::Polyline;
 use glam::{DVec2, DVec3};
 use slopegen::formation::{self, Crossfall, Formation, FormationError};
-use slopegen::model::{Design, Extent, Line, Part};
+use slopegen::model::{Design, Extent, Line, Part, Slope};
 use slopegen::surface::Surface;
 
 fn road(width: f64, left: f64, right: f64) -> Formation {
@@ -313,6 +313,33 @@ fn noisy_lines_are_sound_or_refused() {
         }
     }
     assert!(formed > 50, "{formed} formed, {refused} refused");
+}
+
+/// Two corners 2 cm apart that turn the inner edge by just half the width: what is left of it between the two is a hair long, or less
+/// than nothing, with the step of the centre line in it. The road is the same all the way.
+#[test]
+fn bends_as_tight_as_half_the_width_to_the_last_digits() {
+    let (half, part, gradient): (f64, f64, f64) = (4.0, 0.02, 0.08);
+    let built = |left: f64| {
+        let turn = 2.0 * ((part - left) / (2.0 * half)).atan();
+        let mut points = vec![[-20.0, 0.0, 0.0], [0.0, 0.0, 20.0 * gradient]];
+        for (i, length) in [part, 20.0].into_iter().enumerate() {
+            let (sin, cos) = (turn * (i + 1) as f64).sin_cos();
+            let [x, y, z] = points[i + 1];
+            points.push([x + length * cos, y + length * sin, z + gradient * length]);
+        }
+        let line = wide(&[open(&points)], &road(2.0 * half, 0.0, 0.0));
+        assert!(slopegen::validate::check_steepness(&line, "a", Slope::from_ratio(2.0 / 3.0).unwrap()).is_ok(), "{left}");
+        let surface = build(&line, &design(2.0 / 3.0, Extent::Height(2.0)));
+        (platform(&surface, 0.0).0, surface.volumes.fill, surface.areas.plan)
+    };
+    let (area, fill, plan) = built(-1e-5);
+    for left in [-1e-3, -1e-7, 0.0, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 3e-4] {
+        let found = built(left);
+        close(found.0, area, 1e-4);
+        close(found.1, fill, 1e-3);
+        close(found.2, plan, 1e-3);
+    }
 }
 
 #[test]
