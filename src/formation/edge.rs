@@ -4,6 +4,7 @@
 //! across the end. On the inside of a bend two strokes cross: in the mitre where both are long enough, else the strokes between
 //! are dropped, and the two that do cross meet in the crossing point. A stack of strokes does it in one pass.
 
+use super::steps::{self, Levelled};
 use crate::kernel::orientation::{Turn, turn};
 use crate::kernel::segment::{distance, foot};
 use glam::{DVec2, DVec3};
@@ -18,12 +19,6 @@ pub const SHARPEST: f64 = 3.0;
 
 /// Most chords of a rounded corner, whatever the tolerance.
 const MOST_CHORDS: f64 = 1024.0;
-
-/// Points of an edge that a bend has brought together to less than this part of their way on the centre line, ...
-const SHRUNK: f64 = 0.25;
-
-/// ... with more than this gradient between them, are the two sides of a step, as where the edges cross.
-const STEEP: f64 = 0.1;
 
 /// What rounding may leave missing at the ends of strokes that meet, as a share of their length.
 const MEETING: f64 = 1e-12;
@@ -91,8 +86,8 @@ impl Stroke {
 }
 
 /// The left edge at distance `half` from the centre line, `drop` lower, chords of rounded corners within `chord`. Without the
-/// ends of the centre line itself. At least two vertices, neighbours distinct in plan, are expected.
-pub(super) fn left(centre: &Centre, half: f64, drop: f64, chord: f64) -> Result<Vec<EdgePoint>, Fault> {
+/// ends of the centre line itself; and what was levelled. At least two vertices, neighbours distinct in plan, are expected.
+pub(super) fn left(centre: &Centre, half: f64, drop: f64, chord: f64) -> Result<(Vec<EdgePoint>, Levelled), Fault> {
     let n = centre.plan.len() - 1;
     let mut edge = Edge::new(centre, half);
     let normals: Vec<DVec2> = normals(centre).collect();
@@ -130,7 +125,7 @@ pub(super) fn left(centre: &Centre, half: f64, drop: f64, chord: f64) -> Result<
             from = mitre;
         }
     }
-    edge.finish(n, chord)
+    edge.finish(n)
 }
 
 fn edge_point(centre: &Centre, vertex: usize, plan: DVec2, drop: f64) -> EdgePoint {
@@ -315,7 +310,7 @@ impl<'a> Edge<'a> {
         Fault::Narrow { stations: [station, self.centre.stations[vertex]], distance }
     }
 
-    fn finish(self, last: usize, chord: f64) -> Result<Vec<EdgePoint>, Fault> {
+    fn finish(self, last: usize) -> Result<(Vec<EdgePoint>, Levelled), Fault> {
         if let Some(vertex) = self.gap {
             let end = self.centre.plan[last];
             let (station, distance) = self.centre.nearest(end, 0..vertex);
@@ -327,61 +322,9 @@ impl<'a> Edge<'a> {
             });
         }
         let mut points: Vec<EdgePoint> = self.strokes[1..].iter().map(|stroke| stroke.start).collect();
-        join_steps(&mut points, chord);
-        spread(&mut points, 2.0 * self.half);
-        Ok(points)
-    }
-}
-
-/// Makes one point of neighbours no further apart than `within` with a step in height between them: bends as tight as half the width, to
-/// the digits of the line, are like those a hair tighter, where the edges cross. The ends of the edge stay.
-fn join_steps(points: &mut Vec<EdgePoint>, within: f64) {
-    let last = points.len().saturating_sub(1);
-    let mut kept: Vec<EdgePoint> = Vec::with_capacity(points.len());
-    // Where the points that were joined last begin.
-    let mut begin = DVec2::INFINITY;
-    for (i, &b) in points.iter().enumerate() {
-        match kept.last_mut() {
-            Some(a) if i > 1 && i < last => {
-                let from = if begin.is_finite() { begin } else { a.plan };
-                let length = a.plan.distance(b.plan);
-                let shrunk = length < SHRUNK * (b.station - a.station).abs();
-                if shrunk && (b.z - a.z).abs() > STEEP * length && from.distance(b.plan) <= within {
-                    let (z, [before, _], [_, behind]) =
-                        (0.5 * (a.z + b.z), a.fold.unwrap_or_default(), b.fold.unwrap_or_default());
-                    let fold = Some([before + z - a.z, behind + z - b.z]);
-                    *a = EdgePoint { plan: 0.5 * (a.plan + b.plan), z, station: 0.5 * (a.station + b.station), fold, ..*a };
-                    begin = from;
-                    continue;
-                }
-            }
-            _ => {}
-        }
-        begin = DVec2::INFINITY;
-        kept.push(b);
-    }
-    *points = kept;
-}
-
-/// Levels the steps at folds over a length of edge on both sides.
-fn spread(points: &mut [EdgePoint], over: f64) {
-    for at in 0..points.len() {
-        let Some([before, behind]) = points[at].fold else { continue };
-        ramp(points, at, (0..at).rev(), before, over);
-        ramp(points, at, at + 1..points.len(), behind, over);
-    }
-}
-
-fn ramp(points: &mut [EdgePoint], from: usize, indices: impl Iterator<Item = usize>, step: f64, over: f64) {
-    let mut length = 0.0;
-    let mut last = points[from].plan;
-    for i in indices {
-        length += points[i].plan.distance(last);
-        last = points[i].plan;
-        if length >= over {
-            break;
-        }
-        points[i].z += step * (1.0 - length / over);
+        steps::level_folds(&mut points, 2.0 * self.half);
+        let levelled = steps::level_kinks(&mut points, self.half);
+        Ok((points, levelled))
     }
 }
 

@@ -1,6 +1,7 @@
 //! From a centre line to the ring of its road.
 
 use super::edge::{Centre, EdgePoint, Fault, left, on_centre, sagitta};
+use super::steps::Levelled;
 use super::{Formation, FormationError, Formed};
 use crate::kernel::segment::meeting;
 use crate::kernel::segment_tree::SegmentTree;
@@ -16,7 +17,8 @@ const LEAST_STEP: f64 = 0.001;
 /// Edge points lie on the bisector of the two segments that meet at a vertex of the centre line, at half the width from both, and
 /// `crossfall` times half the width lower than the vertex. The outside of corners sharper than [`super::LONGEST_MITRE`] is
 /// rounded at the height of its vertex. On the inside of a bend tighter than half the width the edge ends where its two legs
-/// cross, at their mean height; the step is levelled over one width of edge on both sides. Vertices of the ring know the vertex
+/// cross, at their mean height; the step is levelled over one width of edge on both sides, as are those that kinks make of single
+/// pieces of the edge. Vertices of the ring know the vertex
 /// of the centre line they come from (`places`) and its station (`axis`). Rings stay what they are.
 ///
 /// Expects a validated line; `label` names its input.
@@ -39,8 +41,8 @@ pub fn widen(line: &Line, label: &str, formation: &Formation) -> Result<Formed, 
         if chain.closed() {
             continue;
         }
-        let (ring, note) = road(chain, formation, polygon, locator)?;
-        formed.notes.extend(note);
+        let (ring, notes) = road(chain, formation, polygon, locator)?;
+        formed.notes.extend(notes.into_iter().flatten());
         formed.line.breaklines.push(Breakline {
             name: chain.name.clone(),
             vertices: chain.vertices.clone(),
@@ -77,17 +79,20 @@ fn road(
     formation: &Formation,
     polygon: u32,
     locator: &Locator<'_>,
-) -> Result<(Chain, Option<Note>), FormationError> {
+) -> Result<(Chain, [Option<Note>; 2]), FormationError> {
     let centre = Centre::new(&chain.vertices, chain.stations());
     let length = centre.stations[centre.stations.len() - 1];
     let half = 0.5 * formation.width;
     let refused = |fault| refusal(fault, chain, formation, &centre, locator);
     check_centre(&centre).map_err(refused)?;
     let fall = formation.crossfall;
-    let lefts = left(&centre, half, fall.left * half, formation.chord).map_err(refused)?;
-    let mut rights = left(&centre.mirrored(), half, fall.right * half, formation.chord).map_err(refused)?;
+    let (lefts, of_left) = left(&centre, half, fall.left * half, formation.chord).map_err(refused)?;
+    let (mut rights, of_right) = left(&centre.mirrored(), half, fall.right * half, formation.chord).map_err(refused)?;
     rights.iter_mut().for_each(|p| p.plan.y = -p.plan.y);
-    let note = fold_note(&chain.name, &[&lefts, &rights], formation.width);
+    let notes = [
+        fold_note(&chain.name, &[&lefts, &rights], formation.width),
+        kink_note(&chain.name, of_left.join(of_right), formation.width),
+    ];
 
     let last = chain.vertices.len() - 1;
     let mut points = distinct(lefts);
@@ -114,7 +119,7 @@ fn road(
         places: points.iter().map(|p| chain.places[p.vertex]).collect(),
         axis: Some(Axis { name: chain.name.clone(), length, stations, sagitta: sagitta(&centre, half, formation.chord) }),
     };
-    Ok((ring, note))
+    Ok((ring, notes))
 }
 
 /// Drops points that lie on the one before.
@@ -213,6 +218,14 @@ fn fold_note(name: &str, edges: &[&[EdgePoint]; 2], width: f64) -> Option<Note> 
         ));
     }
     Some(Note::new("bend-cut-off", message))
+}
+
+fn kink_note(name: &str, Levelled { steps, most }: Levelled, width: f64) -> Option<Note> {
+    let message = format!(
+        "pieces of the edges of `{name}` that kinks of the centre line make much steeper than the line: {steps}; levelled over {width} \
+         of edge on both sides, which moves heights by up to {most:.4}"
+    );
+    (most > LEAST_STEP).then(|| Note::new("edge-levelled", message))
 }
 
 fn refusal(fault: Fault, chain: &Chain, formation: &Formation, centre: &Centre, locator: &Locator<'_>) -> FormationError {
