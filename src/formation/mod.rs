@@ -5,6 +5,7 @@ mod crossfall;
 mod edge;
 mod error;
 mod nodes;
+mod notes;
 mod steps;
 mod widen;
 

@@ -5,12 +5,19 @@
 //! grow, by chance: with the heights of the centre line they would be as steep as walls (kinks).
 
 use super::edge::EdgePoint;
+use crate::kernel::sum::Sum;
 
 /// A piece of an edge is a step if it has this many times the gradient of its surroundings, ...
 const KINK: f64 = 3.0;
 
 /// ... and more than this gradient.
 const STEEP: f64 = 0.15;
+
+/// Gradient that a levelled step adds to its surroundings, unless it is so high that this would take more than one width.
+const GENTLE: f64 = 0.003;
+
+/// Changes of height below this (length units) are rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// What was levelled beside folds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -28,91 +35,87 @@ impl Levelled {
     }
 }
 
-/// Levels the steps at folds over a length of edge on both sides.
-pub(super) fn level_folds(points: &mut [EdgePoint], over: f64) {
-    for at in 0..points.len() {
-        let Some([before, behind]) = points[at].fold else { continue };
-        ramp(points, at, (0..at).rev(), before, over);
-        ramp(points, at, at + 1..points.len(), behind, over);
-    }
+/// A sudden rise along an edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Step {
+    /// Distance along the edge.
+    at: f64,
+    /// What has risen at the points up to this one: nothing, ...
+    before: usize,
+    /// ... and at this one, which is the same or the next: at the same, half of it, as at folds.
+    behind: usize,
+    rise: f64,
 }
 
-fn ramp(points: &mut [EdgePoint], from: usize, indices: impl Iterator<Item = usize>, step: f64, over: f64) {
-    let mut length = 0.0;
-    let mut last = points[from].plan;
-    for i in indices {
-        length += points[i].plan.distance(last);
-        last = points[i].plan;
-        if length >= over {
-            break;
-        }
-        points[i].z += step * (1.0 - length / over);
-    }
+/// Levels the steps at folds, over no more than `over` on both sides.
+pub(super) fn level_folds(points: &mut [EdgePoint], over: f64) {
+    let along = lengths(points);
+    let folds = points.iter().enumerate().filter_map(|(i, p)| {
+        let [before, behind] = p.fold?;
+        Some(Step { at: along[i], before: i, behind: i, rise: before - behind })
+    });
+    let folds: Vec<Step> = folds.collect();
+    level(points, &along, &folds, over);
 }
 
 /// Gives pieces of edge that are steeper than what lies a quarter of the width before and behind them on the centre line the gradient of
-/// these, and levels the rest of their step over one width of edge on both sides, half on each. Bends as they are meant are as steep all
+/// these, and levels the rest of their step over one width of edge at most on both sides, half on each. Bends as they are meant are as steep all
 /// along, and stay.
 pub(super) fn level_kinks(points: &mut [EdgePoint], half: f64) -> Levelled {
     let along = lengths(points);
     let steps = kinks(points, &along, 0.5 * half);
-    if steps.is_empty() {
-        return Levelled::default();
+    Levelled { steps: steps.len(), most: level(points, &along, &steps, 2.0 * half) }
+}
+
+/// Spreads the rise of steps evenly over the edge before and behind them, as far as [`GENTLE`] takes, `most_over` at most; what would lie beyond
+/// an end of the edge comes back from there as from a mirror. So the ends keep their heights, many steps in a row are levelled to one
+/// slope, and small ones do not reach as far as the profile of the line bends. Returns the greatest change of a height.
+fn level(points: &mut [EdgePoint], along: &[f64], steps: &[Step], most_over: f64) -> f64 {
+    let (Some(&end), false) = (along.last(), steps.is_empty()) else { return 0.0 };
+    // Where a rate of rise begins or ends.
+    let mut rates: Vec<(f64, f64)> = Vec::with_capacity(4 * steps.len());
+    for step in steps {
+        let over = (0.5 * step.rise.abs() / GENTLE).min(most_over).min(end);
+        // Nothing to level, or no edge to do it on.
+        if over <= 0.0 {
+            continue;
+        }
+        let rate = 0.5 * step.rise / over;
+        let (from, to) = (step.at - over, step.at + over);
+        rates.extend([(from.max(0.0), rate), (to.min(end), -rate)]);
+        if from < 0.0 {
+            rates.extend([(0.0, rate), (-from, -rate)]);
+        }
+        if to > end {
+            rates.extend([(2.0 * end - to, rate), (end, -rate)]);
+        }
     }
-    let over = 2.0 * half;
+    rates.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut rates = rates.into_iter().peekable();
+    let mut steps = steps.iter().peekable();
+    // The rate at a place, what has risen there, and what was there of the steps.
+    let (mut rate, mut place, mut risen, mut stepped) = (Sum::default(), 0.0, Sum::default(), Sum::default());
     let mut most = 0.0;
-    // Sums over the steps that lie ahead (behind) and no further than `over`, of half their heights and of these times their places.
-    let (mut ahead, mut behind) = (Window::default(), Window::default());
-    let (mut next_ahead, mut last_ahead, mut next_behind, mut last_behind) = (0, 0, 0, 0);
     for (i, point) in points.iter_mut().enumerate() {
-        let here = along[i];
-        // Those from `last_ahead` on begin here or ahead; those up to `next_behind` end here or behind.
-        while let Some(&(at, step)) = steps.get(next_ahead).filter(|(at, _)| along[*at] < here + over) {
-            ahead.add(0.5 * step, along[at]);
-            next_ahead += 1;
+        while let Some((at, change)) = rates.next_if(|(at, _)| *at <= along[i]) {
+            risen.add(rate.value() * (at - place));
+            place = at;
+            rate.add(change);
         }
-        while let Some(&(at, step)) = steps.get(last_ahead).filter(|(at, _)| *at < i && last_ahead < next_ahead) {
-            ahead.add(-0.5 * step, along[at]);
-            last_ahead += 1;
+        risen.add(rate.value() * (along[i] - place));
+        place = along[i];
+        while let Some(step) = steps.next_if(|step| step.behind < i || step.before < i) {
+            stepped.add(step.rise);
         }
-        while let Some(&(at, step)) = steps.get(next_behind).filter(|(at, _)| *at < i) {
-            behind.add(0.5 * step, along[at + 1]);
-            next_behind += 1;
+        let half_way = steps.peek().filter(|step| step.before == i && step.behind == i).map_or(0.0, |step| 0.5 * step.rise);
+        let change = risen.value() - stepped.value() - half_way;
+        // Rounding of sums over thousands of steps is no change.
+        if change.abs() > ROUNDING {
+            point.z += change;
+            most = f64::max(most, change.abs());
         }
-        while let Some(&(at, step)) =
-            steps.get(last_behind).filter(|(at, _)| last_behind < next_behind && along[*at + 1] <= here - over)
-        {
-            behind.add(-0.5 * step, along[at + 1]);
-            last_behind += 1;
-        }
-        // Nothing is left of sums over nothing, not even rounding.
-        if last_ahead == next_ahead {
-            ahead = Window::default();
-        }
-        if last_behind == next_behind {
-            behind = Window::default();
-        }
-        // Σ h (1 − (place − here)/over) ahead, Σ h (1 − (here − place)/over) behind.
-        let up = ahead.sum - (ahead.moment - here * ahead.sum) / over;
-        let down = behind.sum - (here * behind.sum - behind.moment) / over;
-        point.z += up - down;
-        most = f64::max(most, (up - down).abs());
     }
-    Levelled { steps: steps.len(), most }
-}
-
-/// Running sums of steps.
-#[derive(Default)]
-struct Window {
-    sum: f64,
-    moment: f64,
-}
-
-impl Window {
-    fn add(&mut self, height: f64, place: f64) {
-        self.sum += height;
-        self.moment += height * place;
-    }
+    most
 }
 
 /// Distances of the points from the first, along the edge.
@@ -127,8 +130,8 @@ fn lengths(points: &[EdgePoint]) -> Vec<f64> {
         .collect()
 }
 
-/// Pieces that are steps, by their first points, and by how much they rise more than their surroundings.
-fn kinks(points: &[EdgePoint], along: &[f64], around: f64) -> Vec<(usize, f64)> {
+/// Pieces that are steps, with what they rise more than their surroundings would.
+fn kinks(points: &[EdgePoint], along: &[f64], around: f64) -> Vec<Step> {
     let mut steps = Vec::new();
     let (mut from, mut to) = (0, 0);
     for i in 0..points.len().saturating_sub(1) {
@@ -146,7 +149,8 @@ fn kinks(points: &[EdgePoint], along: &[f64], around: f64) -> Vec<(usize, f64)> 
         }
         let mean = (points[to].z - points[from].z) / (along[to] - along[from]);
         if rise.abs() > KINK * mean.abs() * length {
-            steps.push((i, rise - mean * length));
+            let at = 0.5 * (along[i] + along[i + 1]);
+            steps.push(Step { at, before: i, behind: i + 1, rise: rise - mean * length });
         }
     }
     steps
@@ -163,58 +167,72 @@ mod tests {
         points.iter().map(point).collect()
     }
 
-    /// A rise of 4 % with pieces of 1, of which one has shrunk to 0.05: it gets the gradient of those around it (8 pieces of line on 7.05
-    /// of edge), and half of what is left goes to either side, less and less over 8.
+    /// A rise of 4 % with pieces of 1, of which one has shrunk to 0.05: it gets the gradient of those around it (5 pieces of line on 4.05
+    /// of edge), and half of what is left goes to either side, less and less, at a gradient of 0.3 %.
     #[test]
-    fn a_kink_is_levelled_over_a_width() {
-        let mut points = edge(
-            &(0..=40)
-                .map(|i| (f64::from(i) - if i > 20 { 0.95 } else { 0.0 }, 0.04 * f64::from(i), f64::from(i)))
-                .collect::<Vec<_>>(),
-        );
+    fn a_kink_is_levelled() {
+        let shrunk = |i: i32| (f64::from(i) - if i > 20 { 0.95 } else { 0.0 }, 0.04 * f64::from(i), f64::from(i));
+        let mut points = edge(&(0..=40).map(shrunk).collect::<Vec<_>>());
         let given: Vec<f64> = points.iter().map(|p| p.z).collect();
         let Levelled { steps, most } = level_kinks(&mut points, 4.0);
         let mean = 0.04 * 5.0 / 4.05;
         let step = 0.04 - mean * 0.05;
         assert_eq!(steps, 1);
-        assert!((most - 0.5 * step).abs() < 1e-12);
-        for (i, (p, z)) in points.iter().zip(&given).enumerate() {
-            let away = if i <= 20 { 20.0 - p.plan.x } else { p.plan.x - 20.05 };
-            let moved = 0.5 * step * (1.0 - away / 8.0).max(0.0) * if i <= 20 { 1.0 } else { -1.0 };
-            assert!((p.z - z - moved).abs() < 1e-12, "{i}: {} for {moved}", p.z - z);
+        let over = 0.5 * step / GENTLE;
+        let moved = |x: f64| {
+            let rest = 0.5 * step * (1.0 - (x - 20.025).abs() / over).max(0.0);
+            if x < 20.025 { rest } else { -rest }
+        };
+        assert!((most - moved(20.0)).abs() < 1e-12);
+        for (p, z) in points.iter().zip(&given) {
+            assert!((p.z - z - moved(p.plan.x)).abs() < 1e-12, "{}: {} for {}", p.plan.x, p.z - z, moved(p.plan.x));
         }
         // To the bit, where nothing was levelled.
         assert_eq!((points[0].z, points[40].z), (given[0], given[40]));
     }
 
-    /// Sums as they run along are those over all pairs.
+    /// Kinks everywhere, at random, on a straight slope: what comes of it is that slope again, nowhere further off than a few kinks, also at
+    /// its ends, which stay.
     #[test]
-    fn many_kinks() {
+    fn many_kinks_are_one_slope() {
         let mut state = 1_u64;
         let mut random = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (state >> 40) as f64 / f64::from(1 << 24)
         };
-        let mut x = 0.0;
-        let points: Vec<(f64, f64, f64)> = (0..500)
+        let (mut x, count) = (0.0, 4000);
+        let points: Vec<(f64, f64, f64)> = (0..count)
             .map(|i| {
-                x += 0.2 * random().powi(4);
-                (x, 0.01 * f64::from(i), 0.2 * f64::from(i))
+                let point = (x, 0.01 * f64::from(i), 0.2 * f64::from(i));
+                x += random().powi(4);
+                point
             })
             .collect();
-        let given = edge(&points);
-        let mut found = given.clone();
-        let (along, half) = (lengths(&given), 3.0);
-        let steps = kinks(&given, &along, 0.5 * half);
-        assert!(steps.len() > 100);
-        level_kinks(&mut found, half);
-        for (i, p) in found.iter().enumerate() {
-            let moved = |&(at, step): &(usize, f64)| {
-                let (away, sign) = if i <= at { (along[at] - along[i], 0.5) } else { (along[i] - along[at + 1], -0.5) };
-                sign * step * (1.0 - away / (2.0 * half)).max(0.0)
-            };
-            let expected = given[i].z + steps.iter().map(moved).sum::<f64>();
-            assert!((p.z - expected).abs() < 1e-12, "{i}: {} for {expected}", p.z);
+        let mut found = edge(&points);
+        let (first, last) = (found[0].z, found[found.len() - 1].z);
+        let Levelled { steps, .. } = level_kinks(&mut found, 3.0);
+        assert!(steps > 1000, "{steps}");
+        assert!((found[0].z - first).abs() < 1e-9 && (found[found.len() - 1].z - last).abs() < 1e-9);
+        let slope = |p: &EdgePoint| last * p.plan.x / found[found.len() - 1].plan.x;
+        let off = found.iter().map(|p| p.z - slope(p)).fold(0.0, |worst: f64, d| worst.max(d.abs()));
+        let before =
+            points.iter().map(|p| p.1 - last * p.0 / points[points.len() - 1].0).fold(0.0, |worst: f64, d| worst.max(d.abs()));
+        assert!(off <= before, "{off}, {before} before");
+        let mean: f64 = found.iter().zip(&points).map(|(p, q)| p.z - q.1).sum::<f64>() / f64::from(count);
+        assert!(mean.abs() < 0.002, "{mean}");
+    }
+
+    /// The mirror at the ends: a step at `d` from the beginning, `d` less than what it is levelled over, rises twice as fast up to
+    /// `over − d`.
+    #[test]
+    fn ends_keep_their_heights() {
+        let mut points = edge(&(0..=30).map(|i| (f64::from(i), if i > 3 { 1.0 } else { 0.0 }, f64::from(i))).collect::<Vec<_>>());
+        let along = lengths(&points);
+        level(&mut points, &along, &[Step { at: 3.5, before: 3, behind: 4, rise: 1.0 }], 8.0);
+        for (i, p) in points.iter().enumerate() {
+            let x = i as f64;
+            let risen = (x.min(11.5) + x.min(4.5)) / 16.0;
+            assert!((p.z - risen).abs() < 1e-12, "{i}: {} for {risen}", p.z);
         }
     }
 

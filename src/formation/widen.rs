@@ -1,23 +1,19 @@
 //! From a centre line to the ring of its road.
 
 use super::edge::{Centre, EdgePoint, Fault, left, on_centre, sagitta};
-use super::steps::Levelled;
-use super::{Formation, FormationError, Formed};
+use super::{Formation, FormationError, Formed, notes};
 use crate::kernel::segment::meeting;
 use crate::kernel::segment_tree::SegmentTree;
 use crate::model::{Axis, Breakline, Chain, Line, Note, Role};
 use crate::validate::{Locator, MERGE_DISTANCE, check_rings};
 use glam::DVec2;
 
-/// Steps in height at tight bends below this (length units) are not worth a note.
-const LEAST_STEP: f64 = 0.001;
-
 /// Makes a ring of every open chain: left edge, straight end, right edge, straight end, the centre line a breakline inside.
 ///
 /// Edge points lie on the bisector of the two segments that meet at a vertex of the centre line, at half the width from both, and
 /// `crossfall` times half the width lower than the vertex. The outside of corners sharper than [`super::LONGEST_MITRE`] is
 /// rounded at the height of its vertex. On the inside of a bend tighter than half the width the edge ends where its two legs
-/// cross, at their mean height; the step is levelled over one width of edge on both sides, as are those that kinks make of single
+/// cross, at their mean height; the step is levelled at 0.3 %, over one width of edge on both sides at most, as are those that kinks make of single
 /// pieces of the edge. Vertices of the ring know the vertex
 /// of the centre line they come from (`places`) and its station (`axis`). Rings stay what they are.
 ///
@@ -79,7 +75,7 @@ fn road(
     formation: &Formation,
     polygon: u32,
     locator: &Locator<'_>,
-) -> Result<(Chain, [Option<Note>; 2]), FormationError> {
+) -> Result<(Chain, [Option<Note>; 3]), FormationError> {
     let centre = Centre::new(&chain.vertices, chain.stations());
     let length = centre.stations[centre.stations.len() - 1];
     let half = 0.5 * formation.width;
@@ -89,10 +85,8 @@ fn road(
     let (lefts, of_left) = left(&centre, half, fall.left * half, formation.chord).map_err(refused)?;
     let (mut rights, of_right) = left(&centre.mirrored(), half, fall.right * half, formation.chord).map_err(refused)?;
     rights.iter_mut().for_each(|p| p.plan.y = -p.plan.y);
-    let notes = [
-        fold_note(&chain.name, &[&lefts, &rights], formation.width),
-        kink_note(&chain.name, of_left.join(of_right), formation.width),
-    ];
+    let folds = notes::folds(&[&lefts, &rights]);
+    let levelled = of_left.join(of_right);
 
     let last = chain.vertices.len() - 1;
     let mut points = distinct(lefts);
@@ -119,6 +113,11 @@ fn road(
         places: points.iter().map(|p| chain.places[p.vertex]).collect(),
         axis: Some(Axis { name: chain.name.clone(), length, stations, sagitta: sagitta(&centre, half, formation.chord) }),
     };
+    let notes = [
+        notes::of_folds(&chain.name, &folds, formation.width).filter(|_| !notes::too_many(&folds, chain.vertices.len())),
+        notes::of_kinks(&chain.name, levelled, formation.width),
+        notes::of_density(&chain.name, &folds, &centre, &ring, half),
+    ];
     Ok((ring, notes))
 }
 
@@ -199,33 +198,6 @@ fn check_inside(points: &[EdgePoint], centre: &Centre) -> Result<(), Fault> {
         found.is_none()
     });
     found.map_or(Ok(()), |vertex| Err(Fault::NoRoom { vertex }))
-}
-
-fn fold_note(name: &str, edges: &[&[EdgePoint]; 2], width: f64) -> Option<Note> {
-    let folds: Vec<(f64, f64)> = edges
-        .iter()
-        .flat_map(|points| points.iter())
-        .filter_map(|p| p.fold.map(|[before, behind]| (p.station, (before - behind).abs())))
-        .collect();
-    let (station, step) = folds.iter().fold((0.0, -1.0), |best, &f| if f.1 > best.1 { f } else { best });
-    if folds.is_empty() {
-        return None;
-    }
-    let mut message = format!("bends of `{name}` tighter than half the width, where the inner edge is cut off: {}", folds.len());
-    if step > LEAST_STEP {
-        message.push_str(&format!(
-            "; its two ends differ in height by up to {step:.3} (station {station:.3}), levelled over {width} of edge on both sides"
-        ));
-    }
-    Some(Note::new("bend-cut-off", message))
-}
-
-fn kink_note(name: &str, Levelled { steps, most }: Levelled, width: f64) -> Option<Note> {
-    let message = format!(
-        "pieces of the edges of `{name}` that kinks of the centre line make much steeper than the line: {steps}; levelled over {width} \
-         of edge on both sides, which moves heights by up to {most:.4}"
-    );
-    (most > LEAST_STEP).then(|| Note::new("edge-levelled", message))
 }
 
 fn refusal(fault: Fault, chain: &Chain, formation: &Formation, centre: &Centre, locator: &Locator<'_>) -> FormationError {

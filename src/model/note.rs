@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// Notes on the result itself rather than on how the input was read.
-const WARNINGS: [&str; 19] = [
+const WARNINGS: [&str; 20] = [
     "buried",
     "line-beyond-end",
     "ground-single-precision",
@@ -14,6 +14,7 @@ const WARNINGS: [&str; 19] = [
     "design-uncovered",
     "platform-uncovered",
     "line-uncovered",
+    "line-too-dense",
     "open-ends",
     "walls",
     "level-missed",
