@@ -7,7 +7,10 @@
 use super::edge::EdgePoint;
 use crate::kernel::sum::Sum;
 
-/// A piece of an edge is a step if it has this many times the gradient of its surroundings, ...
+/// A piece of an edge is a step if a kink has made it shorter than this part of its way on the centre line, ...
+const SHRUNK: f64 = 0.5;
+
+/// ... it has this many times the gradient of its surroundings, ...
 const KINK: f64 = 3.0;
 
 /// ... and more than this gradient.
@@ -40,9 +43,9 @@ impl Levelled {
 struct Step {
     /// Distance along the edge.
     at: f64,
-    /// What has risen at the points up to this one: nothing, ...
+    /// The last point before it.
     before: usize,
-    /// ... and at this one, which is the same or the next: at the same, half of it, as at folds.
+    /// The first point behind it; at folds the same, which has half of the rise.
     behind: usize,
     rise: f64,
 }
@@ -71,13 +74,16 @@ pub(super) fn level_kinks(points: &mut [EdgePoint], half: f64) -> Levelled {
 /// an end of the edge comes back from there as from a mirror. So the ends keep their heights, many steps in a row are levelled to one
 /// slope, and small ones do not reach as far as the profile of the line bends. Returns the greatest change of a height.
 fn level(points: &mut [EdgePoint], along: &[f64], steps: &[Step], most_over: f64) -> f64 {
-    let (Some(&end), false) = (along.last(), steps.is_empty()) else { return 0.0 };
+    let end = along.last().copied().unwrap_or(0.0);
+    if steps.is_empty() || end <= 0.0 {
+        return 0.0;
+    }
     // Where a rate of rise begins or ends.
     let mut rates: Vec<(f64, f64)> = Vec::with_capacity(4 * steps.len());
     for step in steps {
         let over = (0.5 * step.rise.abs() / GENTLE).min(most_over).min(end);
-        // Nothing to level, or no edge to do it on.
         if over <= 0.0 {
+            // Legs of the same height.
             continue;
         }
         let rate = 0.5 * step.rise / over;
@@ -144,7 +150,7 @@ fn kinks(points: &[EdgePoint], along: &[f64], around: f64) -> Vec<Step> {
             to += 1;
         }
         let (length, rise) = (along[i + 1] - along[i], points[i + 1].z - points[i].z);
-        if rise.abs() <= STEEP * length {
+        if rise.abs() <= STEEP * length || length >= SHRUNK * (points[i + 1].station - points[i].station).abs() {
             continue;
         }
         let mean = (points[to].z - points[from].z) / (along[to] - along[from]);
@@ -234,6 +240,15 @@ mod tests {
             let risen = (x.min(11.5) + x.min(4.5)) / 16.0;
             assert!((p.z - risen).abs() < 1e-12, "{i}: {} for {risen}", p.z);
         }
+    }
+
+    /// A ramp of 40 % on a straight line is meant.
+    #[test]
+    fn steep_lines_stay() {
+        let points = [(0.0, 0.0, 0.0), (10.0, 0.0, 10.0), (10.5, 0.2, 10.5), (20.0, 0.2, 20.0)];
+        let mut found = edge(&points);
+        assert_eq!(level_kinks(&mut found, 4.0), Levelled::default());
+        assert_eq!(found, edge(&points));
     }
 
     /// An arc of which the edge has a tenth of the length is a bend, not a kink: all of its pieces are alike.
