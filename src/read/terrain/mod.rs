@@ -104,16 +104,10 @@ impl RawGrid {
         if self.origin.is_finite() && far.is_finite() {
             return Ok(());
         }
-        let figures = format!(
-            "{} × {} nodes, {} by {} apart, from {} to {far}",
-            self.columns, self.rows, self.step.x, self.step.y, self.origin
-        );
-        Err(refuse(
-            "the grid reaches beyond all numbers",
-            label,
-            figures,
-            "correct the size of its cells, or export the file again",
-        ))
+        let [step, from, to] = [self.step, self.origin, far].map(|p| format!("({:e}, {:e})", p.x, p.y));
+        let figures = format!("{} × {} nodes, {step} apart, from {from} to {to}", self.columns, self.rows);
+        let help = "correct the size of its cells, or export the file again";
+        Err(refuse("the grid reaches beyond all numbers", label, figures, help))
     }
 }
 
