@@ -343,6 +343,28 @@ fn bends_as_tight_as_half_the_width_to_the_last_digits() {
     }
 }
 
+/// Many tight bends are bends: thirty right angles of radius 2, left and right in turn, under a road 8 wide.
+#[test]
+fn many_bends_are_no_kinks() {
+    let (mut p, mut direction) = (DVec2::ZERO, 0.0_f64);
+    let mut points = vec![p];
+    for bend in 0..30 {
+        let sign = if bend % 2 == 0 { 1.0 } else { -1.0 };
+        for i in 0..=6 {
+            let (turn, length) = if i == 0 { (0.0, 30.0) } else { (sign * std::f64::consts::PI / 12.0, 0.5) };
+            direction += turn;
+            p += length * DVec2::from_angle(direction);
+            points.push(p);
+        }
+    }
+    points.push(p + 30.0 * DVec2::from_angle(direction));
+    let centre: Vec<[f64; 3]> = points.iter().map(|p| [p.x, p.y, 1.0]).collect();
+    let formed = formation::widen(&line(&[open(&centre)]), "a", &road(8.0, 0.0, 0.0)).unwrap();
+    let codes: Vec<_> = formed.notes.iter().map(|note| note.code).collect();
+    assert_eq!(codes, ["bend-cut-off"]);
+    assert!(formed.notes[0].message.ends_with("is cut off: 30"), "{}", formed.notes[0].message);
+}
+
 /// A winding road on a vertical curve, its vertices 5 cm apart with three digits: every vertex is a kink of its own, and the edges fold
 /// thousands of times. The platform keeps its heights all the same, `z` of the line 4 beside it, and its area, width times length.
 #[test]

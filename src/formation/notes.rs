@@ -20,9 +20,15 @@ pub(super) fn folds(edges: &[&[EdgePoint]; 2]) -> Vec<(f64, f64)> {
     points.filter_map(|p| p.fold.map(|[before, behind]| (p.station, (before - behind).abs()))).collect()
 }
 
-/// Whether there are so many that they cannot be bends, but kinks of a dense line.
-pub(super) fn too_many(folds: &[(f64, f64)], vertices: usize) -> bool {
-    folds.len() > MOST_BENDS && folds.len() * VERTICES_OF_A_BEND > vertices
+/// Whether they are kinks of a dense line: so many, and where a third of the vertices turn the other way than the one before. Bends turn one
+/// way from beginning to end.
+pub(super) fn are_kinks(folds: &[(f64, f64)], centre: &Centre) -> bool {
+    let vertices = centre.plan.len();
+    if folds.len() <= MOST_BENDS || folds.len() * VERTICES_OF_A_BEND <= vertices {
+        return false;
+    }
+    let turns: Vec<f64> = centre.plan.windows(3).map(|w| (w[1] - w[0]).perp_dot(w[2] - w[1])).collect();
+    3 * turns.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count() > vertices
 }
 
 /// Bends tighter than half the width.
@@ -52,7 +58,7 @@ pub(super) fn of_kinks(name: &str, Levelled { steps, most }: Levelled, width: f6
 /// A line that is too dense for its digits: its edges are those of its kinks.
 pub(super) fn of_density(name: &str, folds: &[(f64, f64)], centre: &Centre, ring: &Chain, half: f64) -> Option<Note> {
     let vertices = centre.plan.len();
-    if !too_many(folds, vertices) {
+    if !are_kinks(folds, centre) {
         return None;
     }
     // Vertices off by ε turn a line of spacing c by about 4ε/c, which takes 4ε·half/c from a piece of edge. For that to be a quarter of it at

@@ -114,7 +114,7 @@ fn road(
         axis: Some(Axis { name: chain.name.clone(), length, stations, sagitta: sagitta(&centre, half, formation.chord) }),
     };
     let notes = [
-        notes::of_folds(&chain.name, &folds, formation.width).filter(|_| !notes::too_many(&folds, chain.vertices.len())),
+        notes::of_folds(&chain.name, &folds, formation.width).filter(|_| !notes::are_kinks(&folds, &centre)),
         notes::of_kinks(&chain.name, levelled, formation.width),
         notes::of_density(&chain.name, &folds, &centre, &ring, half),
     ];
